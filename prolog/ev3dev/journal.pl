@@ -12,7 +12,7 @@
               [ existence_error/2, goal_of_program/1, in_own_name/1,
                 must_be/2, must_be_goal/1, term_expansion/4
               ]).
-:- use_module(private/directory, [readable_file/3]).
+:- use_module(private/directory, [readable_file/3, write_file/2]).
 :- use_module(private/explain, [fail_because/1]).
 :- use_module(private/arguments, [word/2]).
 :- use_module(private/causes, [acting_for/2, causes/2]).
@@ -314,10 +314,7 @@ journal(Journal) :-
     ->  events(Journal)
     ;   word(Journal, File),
         events(Events),
-        setup_call_cleanup(
-            in_own_name(open(File, write, Stream, [encoding(utf8)])),
-            write_events(Events, Stream),
-            close(Stream))
+        write_file(File, write_events(Events))
     ).
 
 is_about_list([]).

@@ -20,6 +20,7 @@
                 number_value/2, option/3
               ]).
 :- use_module(private/brick, [brick/1]).
+:- use_module(private/directory, [write_file/2]).
 :- use_module(private/one_of, [one_of/2]).
 :- use_module(private/roadmap_arguments, [sensor_option/2]).
 :- use_module(private/shades, [write_shades/4]).
@@ -164,10 +165,10 @@ map_facts([Bounds, start(X, Y, Heading)|Walls]) :-
 
 map_save(File) :-
     map_facts(Facts),
-    setup_call_cleanup(
-        open(File, write, Stream, [encoding(utf8)]),
-        forall(one_of(Facts, Fact), format(Stream, '~q.~n', [Fact])),
-        close(Stream)).
+    write_file(File, written(Facts)).
+
+written(Facts, Stream) :-
+    forall(one_of(Facts, Fact), format(Stream, '~q.~n', [Fact])).
 
 %!  map_svg(+File) is semidet.
 %

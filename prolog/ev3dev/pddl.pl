@@ -7,7 +7,8 @@
 :- use_module(private/compiled, []).
 :- reexport(golog).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module(private/directory, [file_path/2, readable_file/3]).
+:- use_module(private/directory,
+              [file_path/2, readable_file/3, write_file/2]).
 :- use_module(private/errors, [must_be/2, term_expansion/4, throw_error/3]).
 :- use_module(private/golog/pddl_text, [pddl_parts/2]).
 :- use_module(private/golog/s_expressions, [expression/3]).
@@ -588,16 +589,8 @@ pddl_write(M:File0) :-
     file_name_extension(ProblemBase, Extension, ProblemFile),
     file_base_name(Base, Name0),
     downcase_atom(Name0, Name),
-    written(File, domain_text(Name, Objects, Predicates, Actions)),
-    written(ProblemFile, problem_text(Name, Init, Goal)).
-
-:- meta_predicate written(+, 1).
-
-written(File, Text) :-
-    setup_call_cleanup(
-        open(File, write, Stream, [encoding(utf8)]),
-        call(Text, Stream),
-        close(Stream)).
+    write_file(File, domain_text(Name, Objects, Predicates, Actions)),
+    write_file(ProblemFile, problem_text(Name, Init, Goal)).
 
 domain_text(Name, Objects, Predicates, Actions, Stream) :-
     format(Stream, '(define (domain ~w)~n  (:requirements :adl)~n', [Name]),

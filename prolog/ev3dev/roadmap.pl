@@ -7,6 +7,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
 :- use_module(private/errors, [term_expansion/4]).
+:- use_module(private/directory, [write_file/2]).
 :- use_module(private/explain).
 :- use_module(driver, []).
 :- use_module(private/arguments, [option/3, take_options/4]).
@@ -147,7 +148,7 @@ roadmap_svg(Map, Start0, Goal0, File, Options) :-
     place(Goal0, Goal),
     roadmap_options(Options, Native),
     roadmap_svg_(Facts, Start, Goal, Native, Text),
-    setup_call_cleanup(
-        open(File, write, Stream, [encoding(utf8)]),
-        write(Stream, Text),
-        close(Stream)).
+    write_file(File, written(Text)).
+
+written(Text, Stream) :-
+    write(Stream, Text).

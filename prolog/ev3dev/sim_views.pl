@@ -9,9 +9,9 @@
             sim_unmount/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [in_own_name/1, must_be/2, term_expansion/4]).
+:- use_module(private/errors, [must_be/2, term_expansion/4]).
 :- use_module(library(lists), [member/2]).
-:- use_module(private/directory, [directory_path/2]).
+:- use_module(private/directory, [directory_path/2, write_file/2]).
 :- use_module(private/native,
               [ sim_collisions_/1, sim_mount_/2, sim_pose_/3, sim_svg_/1,
                 sim_trace_/1, sim_unmount_/0 ]).
@@ -84,11 +84,10 @@ sim_trace(Trace) :-
 sim_svg(File) :-
     must_be(text, File),
     sim_svg_(Text),
-    in_own_name(open(File, write, Stream, [encoding(utf8)])),
-    setup_call_cleanup(
-        true,
-        write(Stream, Text),
-        close(Stream)).
+    write_file(File, written(Text)).
+
+written(Text, Stream) :-
+    write(Stream, Text).
 
 %!  sim_mount(+Directory) is semidet.
 %!  sim_mount(+Directory, +DevDirectory) is semidet.

@@ -1,7 +1,9 @@
 % Errors of the libraries beside library(ev3dev) name what was called, and say
 % what would be right. (Those of library(ev3dev) itself: test_bad_input.pl.)
 
+:- use_module('../support/libraries').
 :- use_module('../support/simulation').
+:- use_module(library(ev3dev/private/help_index), []).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/console)).
 :- use_module(library(ev3dev/drive)).
@@ -12,6 +14,7 @@
 :- use_module(library(ev3dev/journal)).
 :- use_module(library(ev3dev/plnxt)).
 :- use_module(library(ev3dev/raw)).
+:- use_module(library(ev3dev/planners)).
 :- use_module(library(ev3dev/roadmap)).
 :- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/sim_batch)).
@@ -182,8 +185,60 @@ bad(trigger_create(a, true, true), [f(_)-1, 7-2, _-2, 7-3, _-3, [7]-3]).
 bad(trigger_create(a, true, true, 1), [7-2, _-3, 0-4, a-4, _-4]).
 bad(timer_create(a, 1, true), [f(_)-1, a-2, -1-2, _-2, 7-3, _-3]).
 bad(timer_create(a, 1, true, 1), [-1-2, 7-3, 0-4, a-4, _-4]).
+bad(far(anna, true), [_-1, 7-1, anna-1, _-2, 7-2]).
+bad(far_load(anna, nofile), [_-1, 7-1, anna-1, _-2]).
+bad(navigate_to([], 9-9), [a-1, _-2, far-2]).
+bad(navigate_to([], 9-9, []), [a-1, far-2, [x(1)]-3]).
+bad(execute_plan([]), [_-1, a-1]).
+bad(obstacle_add([1, 1]), [_-1, a-1, 1-2-1]).
+bad(obstacle_remove([1, 1]), [_-1, a-1]).
+bad(plan(a_star, problem(0, 1, []), _), [_-1, nix-1, _-2, 7-2]).
+bad(plan(a_star, problem(0, 1, []), _, _), [_-1, nix-1, _-2, 7-2]).
+bad(planning(a_star, problem(0, 1, []), _), [_-1, nix-1, _-2, 7-2]).
+bad(replan(0, [], _, a, _), [_-4, a-4]).
+bad(grid_map([], _), [a-1, [colour(red)]-1, [neighbors(5)]-1]).
+bad(indigolog([]), [_-1, fly-1]).
+bad(roadmap_svg([], 0-0, 9-9, 'roadmap.svg', []), [a-1, foo-2, foo-3, _-4, [x(1)]-5]).
+bad(roadmap_legs([], 0-0, 9-9, _, []), [a-1, foo-2, foo-3, [x(1)]-5]).
+bad(sim_add(box(1, 1, 1, 1)), [_-1, a-1, 7-1]).
+bad(sim_add(box(1, 1, 1, 1), _), [_-1, a-1, 7-1]).
+bad(sim_mount('/nowhere'), [_-1, '/nowhere/at/all'-1]).
+bad(sim_mount('/nowhere', '/nowhere'), [_-1, '/nowhere/at/all'-1]).
+bad(sim_release(enter), [space-1, _-1]).
+bad(sim_show(in1, value0, 5), [7-1, _-1, in9-1, _-2, _-3]).
+bad(sim_unshow(in1, value0), [7-1, _-1, in9-1, _-2]).
+bad(sim_start(room), [nowhere-1, _-1]).
+bad(sim_svg('/nowhere/x.svg'), [_-1, '/nowhere/y.svg'-1]).
+bad(sim_unplug(outA), [1-1, in9-1, _-1]).
+
+% What is not refused, and why: `map` is a term that grid_map/2 or another
+% predicate made, which planners hand over thousands of times a second; `any`
+% takes any term; `fails` asks a question, and the answer is no.
+accepts(map,
+        [ grid_changed/3, free_cell/2, grid_belief/2, grid_belief_best/3,
+          grid_belief_cell/3, grid_belief_entropy/2, grid_belief_svg/2,
+          grid_beside/4, grid_bounds/5, grid_cell/2, grid_cost/4,
+          grid_costs/4, grid_direction/2, grid_localize/2, grid_neighbors/2,
+          grid_problem/4, grid_start/2, grid_step/4, grid_turn/4,
+          compare_planners/3 ]).
+accepts(any,
+        [ screen_print/1, ask_exog_occurs/1, report_message/2, set_option/2
+        ]).
+accepts(fails,
+        [ direction_heading/2, sensing_action/2, grid_place/2,
+          plan_and_go_to/2, plan_and_go_to/3, sim_remove/1, map_save/1,
+          map_svg/1 ]).
 
 :- begin_tests(errors).
+
+test(each_export_that_takes_something_is_here, true(Missing-Gone == []-[])) :-
+    findall(PI, ( public_export(_, PI), \+ public_export(ev3dev, PI),
+                  takes_something(PI) ), PIs0),
+    sort(PIs0, PIs),
+    findall(PI, tried(PI), Tried0),
+    sort(Tried0, Tried),
+    subtract(PIs, Tried, Missing),
+    findall(PI, ( member(PI, Tried), \+ public_export(_, PI) ), Gone).
 
 test(name_what_was_called, [forall(bad_call(Goal))]) :-
     functor(Goal, Name, Arity),
@@ -380,6 +435,29 @@ measure(X, sim_at(X, true)).
 measure(X, for_seconds(X, true)).
 measure(X, sim_press(up, [after(X)])).
 measure(X, sim_press(up, [for(X)])).
+
+tried(Name/Arity) :-
+    bad(Call, _),
+    functor(Call, Name, Arity).
+tried(PI) :-
+    accepts(_, PIs),
+    member(PI, PIs).
+
+%   Its comment has an argument that must have a value.
+
+takes_something(Name/Arity) :-
+    ev3dev_help_index:read_comments,
+    ev3dev_help_index:predicate_(Name, Arity, Id),
+    ev3dev_help_index:comment_(Id, _, Heads, _),
+    atomic_list_concat(Heads, ' ', Text),
+    atom_concat(Name, '(', Start),
+    sub_atom(Text, Before, _, _, Start),
+    sub_atom(Text, Before, _, 0, From),
+    once(sub_atom(From, End, _, _, ' is ')),
+    sub_atom(From, 0, End, _, Head),
+    ev3dev_help_index:head_indicator(Head, Name/Arity),
+    ( sub_atom(Head, _, _, _, '+') ; sub_atom(Head, _, _, _, ':') ),
+    !.
 
 none(_, _) :-
     fail.

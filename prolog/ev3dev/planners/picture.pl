@@ -4,6 +4,7 @@
 :- use_module(library(lists), [member/2, nth0/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_values/2]).
+:- use_module('../private/directory', [write_file/2]).
 :- use_module('../private/grid/map').
 
 /** <module> A picture of the expanded states
@@ -31,10 +32,7 @@ draw_panels(File, Map, Start, Goal, Panels0) :-
             Panels),
     findall(Most, member(panel(_, _, _, _, Most), Panels), Mosts),
     largest(Mosts, 1, Most),
-    setup_call_cleanup(
-        open(File, write, Out, [encoding(utf8)]),
-        draw(Out, Map, Start, Goal, Panels, Most),
-        close(Out)).
+    write_file(File, draw(Map, Start, Goal, Panels, Most)).
 
 count([], []).
 count([Cell|Cells], [Cell-Count|Counts]) :-
@@ -52,7 +50,7 @@ largest([Number|Numbers], Most0, Most) :-
     Most1 is max(Most0, Number),
     largest(Numbers, Most1, Most).
 
-draw(Out, Map, Start, Goal, Panels, Most) :-
+draw(Map, Start, Goal, Panels, Most, Out) :-
     size(Map, Width, Height),
     length(Panels, Count),
     Columns is max(1, min(5, Count)),

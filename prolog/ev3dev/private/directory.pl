@@ -3,11 +3,14 @@
             readable_file/3,            % +File, +Extension, -Path
             directory_path/2,           % +Directory, -Path
             environment_directory/2,    % +Variable, -Directory
-            new_directory/2             % +Base, -Directory
+            new_directory/2,            % +Base, -Directory
+            write_file/2                % +File, :Closure
           ]).
 :- use_module(errors,
               [existence_error/2, in_own_name/1, must_be/2, throw_error/3]).
 :- use_module(native, [stale_mount_/1]).
+
+:- meta_predicate write_file(+, 1).
 
 /** <module> Directories that a program or its environment names
 */
@@ -29,6 +32,20 @@ readable_file(File, Extension, Path) :-
     Options = [extensions([Extension, '']), access(read), file_errors(fail)],
     in_own_name(absolute_file_name(File, Path, Options)),
     exists_file(Path).
+
+%!  write_file(+File, :Closure) is det.
+%
+%   Write a text to File: call(Closure, Stream) writes it.
+%
+%   @error as open/4
+
+write_file(File, Closure) :-
+    must_be(text, File),
+    in_own_name(open(File, write, Stream, [encoding(utf8)])),
+    setup_call_cleanup(
+        true,
+        call(Closure, Stream),
+        close(Stream)).
 
 %!  directory_path(+Directory, -Path) is det.
 %
