@@ -358,7 +358,7 @@ test(a_name_may_be_an_atom_or_a_string, true(Different == [])) :-
 
 ends(Goal, How) :-
     warnings(catch(call_with_time_limit(
-                       60,
+                       300,
                        ( with_output_to(string(_), Goal) -> End = yes ; End = no )),
                    error(Formal, _), End = Formal),
              _),
@@ -369,7 +369,7 @@ ends_badly(Goal, How) :-
     % A motor that is told nonsense may well be said to be blocked. 97 seconds,
     % which is what [a] is, take a while in an emulated simulator.
     warnings(catch(call_with_time_limit(
-                       60,
+                       300,
                        ( with_output_to(string(_), ignore(user:Goal)),
                          Error = none )),
                    Error, true),
@@ -600,7 +600,7 @@ test(moves_throw_or_fail_where_a_motor_reads_badly,
                      memberchk(Name, [empty, newlines, spaces, nuls]) ) )),
        true(Fine == true) ]) :-
     with_tree(plain, ( replace(outB, Attribute, Make_1),
-                       outcome(call_with_time_limit(5, motor_run(outB, 50, 90, [timeout(1)])),
+                       outcome(call_with_time_limit(300, motor_run(outB, 50, 90, [timeout(1)])),
                                done, Outcome) )),
     (   Outcome == fails
     ->  Fine = true
@@ -617,7 +617,7 @@ test(sensors_throw_or_fail_where_they_read_badly,
        true(Fine == true) ]) :-
     with_tree(plain, [in1-'lego-ev3-us'],
               ( replace(in1, Attribute, Make_1),
-                outcome(call_with_time_limit(5, us_dist_cm(in1, V)), V, Outcome) )),
+                outcome(call_with_time_limit(300, us_dist_cm(in1, V)), V, Outcome) )),
     (   Outcome == fails
     ->  Fine = true
     ;   Attribute == mode, Outcome == value(84.3)
@@ -718,7 +718,7 @@ test(each_is_read_or_refused_with_the_reason, true(Wrong == [])) :-
     findall(Name-Goal-Outcome,
             ( no_file(Name, File),
               names_file(File, Goal),
-              warnings(outcome(with_sim([], call_with_time_limit(9, Goal)), done, Outcome),
+              warnings(outcome(with_sim([], call_with_time_limit(300, Goal)), done, Outcome),
                        _),
               \+ Outcome == fails,
               \+ Outcome = value(_),

@@ -187,7 +187,7 @@ started(child(_, Out, _)) :-
 
 ended_by(Signal, child(Pid, _, _), Status) :-
     process_kill(Pid, Signal),
-    process_wait(Pid, Status, [timeout(60)]),
+    process_wait(Pid, Status, [timeout(300)]),
     catch(process_kill(Pid, kill), _, true),
     Status \== timeout.
 

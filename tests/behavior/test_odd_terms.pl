@@ -118,7 +118,7 @@ wrong(Kind, Seed, Goal-Error) :-
     call_of(Kind, Seed, Goal),
     with_sim(room,
              ( set_robot(5.6, 10.6, outB, outC),
-               catch(call_with_time_limit(30,
+               catch(call_with_time_limit(300,
                                           with_output_to(string(_), ignore(Goal))),
                      Error, true) )),
     nonvar(Error),

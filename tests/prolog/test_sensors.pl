@@ -281,7 +281,7 @@ test(a_signal_may_ask_for_the_sensor_that_is_settling,
                 put_attribute(in1, value0, 35),
                 thread_self(Me),
                 later(0.05, thread_signal(Me, sensor_value(in1, 'IR-SEEK', 0, _))),
-                call_with_time_limit(20, ir_prox(in1, V)),
+                call_with_time_limit(300, ir_prox(in1, V)),
                 get_attribute(in1, mode, M) )).
 test(a_time_limit_gets_through_to_a_sensor_that_settles,
      [forall(tree(Tree)), true(Ball == time_limit_exceeded)]) :-

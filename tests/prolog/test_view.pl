@@ -2,6 +2,7 @@
 :- use_module('../support/dev').
 :- use_module('../support/simulation').
 :- use_module('../support/trees').
+:- use_module('../support/undisturbed').
 :- use_module('../support/web').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/bricks)).
@@ -120,7 +121,7 @@ test(stop_twice) :-
 test(no_thread_of_the_server_is_left) :-
     findall(Thread, thread_property(Thread, status(running)), Before),
     viewed(Port, get(Port, '/?t=test_token', [], _, _)),
-    until(threads_are(Before), 500).
+    eventually(threads_are(Before)).
 
 test(nothing_of_the_server_is_left, true(Descriptors == Descriptors0)) :-
     token(Token),
@@ -133,7 +134,7 @@ test(nothing_of_the_server_is_left, true(Descriptors == Descriptors0)) :-
                view_stop )),
     page_close(Page),
     descriptors(Descriptors),
-    until(\+ of_the_view(_), 500).
+    eventually(\+ of_the_view(_)).
 
 descriptors(Count) :-
     directory_files('/proc/self/fd', Files),
@@ -148,17 +149,6 @@ of_the_view(Thread) :-
                              read_line_to_string(In, "ev3-view"),
                              close(In)),
           error(_, _), fail).
-
-:- meta_predicate until(0, +).
-
-until(Goal, Left) :-
-    (   call(Goal)
-    ->  true
-    ;   Left > 0,
-        sleep(0.02),
-        Left1 is Left - 1,
-        until(Goal, Left1)
-    ).
 
 threads_are(Before) :-
     findall(Thread, thread_property(Thread, status(running)), Now),
@@ -448,12 +438,9 @@ test(a_connection_that_says_nothing_holds_nobody_up, true(Took < 3)) :-
     web:connect(Port, In, Out),
     own(Port, Fields),
     get(Port, '/missing', Fields, 404, _),
-    get_time(Before),
-    view_stop,
-    get_time(After),
+    undisturbed(view_stop, Took),
     close(In, [force(true)]),
-    close(Out, [force(true)]),
-    Took is After - Before.
+    close(Out, [force(true)]).
 test(a_program_that_was_started_does_not_keep_the_port) :-
     token(Token),
     quietly(view([port(Port), token(Token), open(false)])),
@@ -980,14 +967,6 @@ query(top(In, _, _), Text) :-
     format(In, "~w~n", [Text]),
     flush_output(In).
 
-:- meta_predicate seconds(0, -).
-
-seconds(Goal, Seconds) :-
-    get_time(Before),
-    once(Goal),
-    get_time(After),
-    Seconds is After - Before.
-
 %   The same with a robot in the room, and the first frame of the page.
 :- meta_predicate in_room(?, ?, 0).
 
@@ -1115,9 +1094,9 @@ test(strangers_delay_neither_a_page_nor_stop,
           query(Top, "motor_run(outA, 50)."),
           frame_with(Page, Frame, frame_runs(Frame), 2000),
           besieged(Port, Count, Kind,
-                   ( seconds(get(Port, '/?t=test_token', [], Code, _), Visit),
-                     seconds(page_ask(Page, "next", _), Next),
-                     seconds(page_ask(Page, "stop", _), Stop),
+                   ( undisturbed(get(Port, '/?t=test_token', [], Code, _), Visit),
+                     undisturbed(page_ask(Page, "next", _), Next),
+                     undisturbed(page_ask(Page, "stop", _), Stop),
                      frame_with(Page, Last, ( ended(Last), \+ frame_runs(Last) ),
                                 2000) )) )),
     findall(Late0, ( member(Late0, [Visit, Next, Stop]), Late0 > 4 ), Late).

@@ -197,7 +197,7 @@ open_toplevel(Kind, File, toplevel(Pid, In, Out)) :-
                    [ process(Pid), stdin(pipe(In)),
                      stdout(pipe(Out)), stderr(pipe(Out)) ]),
     % Much longer than a machine that is busy with other things takes.
-    set_stream(Out, timeout(120)).
+    set_stream(Out, timeout(300)).
 
 toplevel_command(pipe, Swipl, File, env,
                  [Swipl, '-q', '-f', none, '-l', file(File)]).
@@ -217,7 +217,7 @@ can_open_terminal :-
 %   It ends at the end of its input.
 close_toplevel(toplevel(Pid, In, Out)) :-
     catch(close(In), _, true),
-    process_wait(Pid, Status, [timeout(60)]),
+    process_wait(Pid, Status, [timeout(300)]),
     (   Status == timeout
     ->  process_kill(Pid, kill),
         process_wait(Pid, _)

@@ -548,7 +548,7 @@ left(Port, Attribute, _, Text) :-
 %
 %   Call Goal in another thread after some time by the tree's clock. In real time
 %   it comes once this thread is within a call of the library, where it waits, or
-%   after two seconds if it waits elsewhere.
+%   if it waits elsewhere: then it was asked 400 times, or hears nothing.
 
 later(Seconds, Goal) :-
     (   current_tree(simulator)
@@ -559,24 +559,23 @@ later(Seconds, Goal) :-
 
 later_in_real_time(Main, Seconds, Goal) :-
     sleep(Seconds),
-    get_time(Now),
-    Deadline is Now + 2,
-    thread_self(Me),
-    repeat,
-    sleep(0.002),
-    (   is_within_library(Main, Me)
-    ->  true
-    ;   get_time(Then),
-        Then > Deadline
-    ),
-    !,
+    waits(Main, 400),
     call(Goal).
 
 % A signal is handled where the thread waits.
-is_within_library(Main, Me) :-
+waits(Main, Left) :-
+    sleep(0.002),
+    thread_self(Me),
     thread_signal(Main, trees:tell_whether_within(Me)),
-    thread_get_message(Me, within(Within), [timeout(0.5)]),
-    Within == true.
+    (   thread_get_message(Me, within(Within), [timeout(0.5)])
+    ->  Asked = 1
+    ;   Asked = 100
+    ),
+    Next is Left - Asked,
+    (   ( Within == true ; Next =< 0 )
+    ->  true
+    ;   waits(Main, Next)
+    ).
 
 tell_whether_within(Thread) :-
     prolog_current_frame(Frame),
@@ -615,11 +614,12 @@ meanwhile(Other, Goal) :-
 %
 %   Wait until Goal succeeds, and commit to that.
 %
-%   @error assertion_failed(eventually(Goal)) if it does not within 20 s
+%   @error assertion_failed(eventually(Goal)) if it does not within five minutes,
+%          or the machine is much too busy
 
 eventually(Goal) :-
     get_time(Now),
-    Deadline is Now + 20,
+    Deadline is Now + 300,
     repeat,
     (   call(Goal)
     ->  true

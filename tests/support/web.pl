@@ -25,7 +25,7 @@ connect(Port, In, Out) :-
     tcp_socket(Socket),
     tcp_connect(Socket, localhost:Port),
     tcp_open_socket(Socket, In, Out),
-    set_stream(In, timeout(20)),
+    set_stream(In, timeout(300)),
     maplist([S]>>( set_stream(S, encoding(octet)),
                    set_stream(S, newline(posix)) ), [In, Out]).
 
