@@ -156,6 +156,8 @@ lint: build
 	        --no-default-features --features sim
 	tools/layers.py --self-test
 	tools/layers.py
+	tools/clocks.py --self-test
+	tools/clocks.py
 	tools/papers.py --self-test
 	tools/papers.py
 	@if command -v cargo-deny >/dev/null; then $(CARGO) deny --locked check bans licenses sources; \
