@@ -11,17 +11,25 @@ LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
 .PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-endings check-torture check-cases mutants check-all check-night check-old check-dist playground check-playground \
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
-        check-site lint bench pictures doc site dist demo install clean distclean realclean
+        check-site lint bench pictures doc site dist demo install clean distclean realclean help
 
-# Who loads the pack by its path has it compiled, too
+# Builds the pack and compiles its Prolog files
 all: build
 	@$(MAKE) --no-print-directory install
 
-# What is missing on a fresh machine. pack_install of 7.2.3 copies a folder without the
+# Says what each target is for, by the comment above it
+help:
+	@awk '/^#/ { sub(/^# ?/, ""); said = said == "" ? $$0 : said " " $$0; next } \
+	    /^[a-z][a-z-]*:/ && said != "" { name = $$1; sub(/:.*/, "", name); \
+	        sub(/[.] .*/, "", said); printf "%-20s %s\n", name, said } \
+	    { said = "" }' Makefile
+
+# Installs what is missing on a fresh machine. pack_install of 7.2.3 copies a folder without the
 # right to execute its files.
 setup:
 	@bash tools/setup.sh
 
+# Builds the native library into lib/
 build: setup
 	@command -v $(CARGO) >/dev/null || { \
 	    echo "Building this pack needs cargo: install Rust from https://rustup.rs, or use the binary pack." >&2; \
@@ -31,8 +39,9 @@ build: setup
 	$(CARGO) build --release --locked
 	@$(MAKE) --no-print-directory place
 
-# Apart, so that PACKSODIR is asked of a swipl that setup may just have installed
 .PHONY: place
+# Puts the library into lib/. Apart, so that PACKSODIR is asked of a swipl that setup may just
+# have installed
 place:
 	@mkdir -p "$(PACKSODIR)"
 	@built="$${CARGO_TARGET_DIR:-target}/release/libev3dev.so"; \
@@ -44,7 +53,7 @@ place:
 ifneq ($(SWIHOME)$(SWIPL_HOME_DIR),)
 check: check-install
 else
-# What each is, how long it took and what failed are said at the end. Those that wait most of
+# All tests. What each is, how long it took and what failed are said at the end. Those that wait most of
 # the time run beside those that compute.
 check: export EV3DEV_TEST_PERCENT := $(or $(EV3DEV_TEST_PERCENT),20)
 # Not $(MAKE) itself, as `make -n check` would run it
@@ -68,7 +77,7 @@ check-install:
 	@EV3DEV_PACK=. $(SWIPL) -q -f none -g main -t 'halt(1)' tests/brick/smoke.pl </dev/null
 	@EV3DEV_PACK=. $(SWIPL) -q -f none -g main -t 'halt(1)' tests/brick/example.pl </dev/null
 
-# What takes longer, in 100 minutes: other Prologs, the page, the site, the emulated brick, more
+# All tests and what takes longer, in 100 minutes: other Prologs, the page, the site, the emulated brick, more
 # random programs, and changes that tests should notice. docs/checked.md says when it last passed.
 check-all: lint check
 	$(MAKE) dist
@@ -94,10 +103,11 @@ check-night: check-all
 	$(MAKE) mutants SAMPLE=240 LEAST=70
 	$(MAKE) check-brick
 
+# The tests of the Rust crates
 check-rust:
 	$(CARGO) test --workspace --locked --quiet
 
-# A fifth of the random cases; check-torture has them all
+# The tests of the Prolog files, with a fifth of the random cases; check-cases has all
 check-prolog: export EV3DEV_TEST_PERCENT := $(or $(EV3DEV_TEST_PERCENT),20)
 check-prolog:
 	@tests/run.sh $(TESTS)
@@ -148,6 +158,7 @@ mutants: build
 	@$(SWIPL) -g main -t 'halt(1)' tools/mutate.pl -- \
 	    $(SINCE:%=--since=%) $(SAMPLE:%=--sample=%) $(SEED:%=--seed=%) $(LEAST:%=--least=%) $(FILES)
 
+# The checks of style and of the papers, without running anything
 lint: build
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
@@ -166,6 +177,7 @@ lint: build
 	$(SWIPL) -g main -t 'halt(1)' tests/brick/old.pl
 	@! command -v shellcheck >/dev/null || shellcheck -x tools/*.sh tools/zig-cc tests/*.sh tests/*/*.sh
 
+# Measures, beside other libraries
 bench: build
 	@benches/run.py
 
@@ -187,7 +199,7 @@ site: doc
 dist: doc
 	@tools/dist.sh
 
-# A second one made elsewhere has the same bytes
+# The binary pack made elsewhere has the same bytes
 check-dist: dist
 	@tools/check-dist.sh
 
@@ -195,7 +207,7 @@ check-dist: dist
 playground: build
 	@tools/playground.sh
 
-# In SWI-Prolog's WebAssembly build, in node: examples do the same as natively
+# The playground: in SWI-Prolog's WebAssembly build, in node, examples do the same as natively
 check-playground: build
 	@tests/playground/check.sh
 
@@ -215,29 +227,32 @@ check-brick-smoke:
 brick-prolog: dist
 	@tools/brick-prolog.sh --with-pack
 
-# On an emulated EV3 that has nothing else
+# The same on an emulated EV3 that has nothing else
 check-brick-prolog: brick-prolog
 	@tools/check-brick-prolog.sh
 
-# In the SWI-Prologs of three Debians; SWIPL_723=<swipl> adds a built 7.2.3,
+# The binary pack in the SWI-Prologs of three Debians; SWIPL_723=<swipl> adds a built 7.2.3,
 # SWIPL_101=<swipl> a built 10.1
 check-versions: dist
 	@tools/versions.sh
 
+# An example drives in the simulator: EXAMPLE=grid_navigation
 demo: build
 	@tools/demo.sh $(EXAMPLE)
 
-# Its files then load several times as fast; they are for this Prolog alone
+# Compiles the Prolog files, which load several times as fast then, for this Prolog alone
 install:
 	@$(SWIPL) -q -f none -t 'halt(1)' </dev/null \
 	    -g "asserta(user:file_search_path(library,prolog)),use_module(library(ev3dev/compile)),ev3dev_compile,halt"
 
+# Removes what cargo built
 clean:
 	$(CARGO) clean
 
+# Removes all that was built
 distclean: clean
 	rm -rf lib dist doc compiled
 
-# The toolchain for other machines, too: 1.3 GB to fetch again
+# Removes the toolchain for other machines, too: 1.3 GB to fetch again
 realclean: distclean
 	rm -rf .toolchain

@@ -10,7 +10,8 @@ Of what stands in back quotes there
     a name, also one of a goal or of a path as `Device::number`, is in the code. In a step of a
     walk, a numbered item of ARCHITECTURE.md, it is in one of the files that the step names.
 
-What has a `<` is for the reader to fill in.
+What has a `<` is for the reader to fill in. Lists that repeat what files say are compared
+with these files, `compared` below.
 """
 
 import os
@@ -103,6 +104,111 @@ def wrong(text, house, make, walks=True):
                     yield line, quoted
 
 
+def makefile(text):
+    """What `make` has, what .PHONY says, and what has a comment above it."""
+    targets = set(re.findall(r"^([a-z][\w-]*):(?!=)", text, flags=re.M))
+    joined = text.replace("\\\n", " ")
+    phony = {name for names_there in re.findall(r"^\.PHONY:(.*)$", joined, flags=re.M) for name in names_there.split()}
+    told = set(re.findall(r"^#[^\n]*\n([a-z][\w-]*):", text, flags=re.M))
+    return targets, phony, told
+
+
+def natives(text):
+    """The foreign predicates that a file of Rust defines: name, arity, nondeterministic."""
+    return {(found[2], len([part for part in found[3].split(",") if part.strip()]) - 1, found[1] == "nondet")
+            for found in re.finditer(r'(\w+) fn "(\w+)"(?:<[^(]*>)?\(([^)]*)\)', text)}
+
+
+def declared(text):
+    """The predicates that native.pl says a file has: file, name, arity, nondeterministic."""
+    heads = []
+    for line in text.split("\n"):
+        if found := re.match(r"%!  (\w+)(?:\((.*)\))? is (\w+)\.", line):
+            heads.append((found[1], found[2].count(",") + 1 if found[2] else 0, found[3] == "nondet"))
+        elif found := re.match(r"%   `(src/[\w/]+\.rs)`", line):
+            yield from ((found[1], *head) for head in heads)
+            heads = []
+
+
+def words(folder, files, pattern):
+    """The words that a pattern finds in the files below a folder."""
+    return {word for path, text in files.items() if path.startswith(folder)
+            for word in re.findall(pattern, text, flags=re.M)}
+
+
+def stems(folder, files):
+    """The names of the Prolog files in a folder."""
+    return {Path(path).stem for path in files if re.fullmatch(re.escape(folder) + r"[\w-]+\.pl", path)}
+
+
+def compared(files, papers):
+    """Lists of names: what says them, what it is compared with, the names of both. Where only the
+    second must be among the first, the first is None."""
+    page, view = papers["docs/view-protocol.md"], "prolog/ev3dev/private/view/"
+    targets, phony, told = makefile(files["Makefile"])
+    yield "Makefile, .PHONY", "its targets", phony, targets
+    yield "Makefile, comments above targets", "its targets", told, targets
+    recipes = "".join(re.findall(r"^\t.*\n|^check[\w-]*:.*\n", files["Makefile"], flags=re.M))
+    yield "CONTRIBUTING.md, or what makes others", "targets that check", None, (
+        {name for name in targets if name.startswith("check")},
+        set(re.findall(r"[\w-]+(?!:)", papers["CONTRIBUTING.md"])) | set(re.findall(r" ([\w-]+)", recipes)))
+    rust = {(path, *native) for path, text in files.items()
+            if path.startswith("src/") and not path.startswith("src/glue/") for native in natives(text)}
+    told = set(declared(files["prolog/ev3dev/private/native.pl"]))
+    yield "natives! of src", "comments of private/native.pl", None, (told, rust)
+    yield "comments of private/native.pl", "natives! of src", {each[1:] for each in told}, {each[1:] for each in rust}
+    state = files["src/view/state.rs"]
+    objects = state[state.index("objects! {\n"):]
+    fields = set(re.findall(r"^        (?:r#)?(\w+): .*,$", objects[:objects.index("\n}\n")], flags=re.M))
+    yield "docs/view-protocol.md", "keys of src/view/state.rs", None, (fields, set(re.findall(r'"(\w+)":', page)) | set(re.findall(r"`(\w+)", page)))
+    table = page[page.index("### Page -> server"):page.index("Each but `next`")]
+    lines = {word for cell in re.findall(r"^\| ([^|]*) \|", table, flags=re.M)
+             for word in re.findall(r"`([a-z]+)", cell)} - {"x"}
+    heard = words(view, files, r"^(?:form|line|goal_line|source_line|request)\((\w+),") | words(
+        view, files, r"Word == (\w+)") | {word for found in words(view, files, r"memberchk\(Word, \[([\w, ]+)\]")
+                                        for word in found.split(", ")}
+    heard = {word for word in heard if word[0].islower()}
+    yield "docs/view-protocol.md, lines", "what private/view hears", lines - {"max"}, heard
+    yield "what the page sends", "what private/view hears", None, (
+        words("prolog/ev3dev/view/", files, r"send\(['`\"]([a-z]+)"), heard)
+    kept = re.search(r"KEPT = \[([^\]]*)\]", files["prolog/ev3dev/view/model.js"])[1]
+    yield "docs/view-protocol.md", "KEPT of model.js", None, (
+        set(re.findall(r"\w+", kept)), set(re.findall(r"`(\w+)`", page)))
+    for kind in ("worlds", "robots"):
+        yield "docs/worlds.md", kind, None, (
+            stems(f"prolog/ev3dev/{kind}/", files), set(re.findall(r"`?(\w+)", papers["docs/worlds.md"])))
+    yield "docs/pictures", "worlds", {Path(path).stem[6:] for path in papers if "pictures/world_" in path}, stems(
+        "prolog/ev3dev/worlds/", files)
+    exercises = {path.split("/")[1] for path in files if re.fullmatch(r"course/[^/]+/exercise\.pl", path)}
+    yield "docs/teaching.md", "exercises", set(re.findall(r"`course/([\w-]+)`", papers["docs/teaching.md"])), exercises
+    tests = " ".join(text for path, text in files.items() if path.startswith("tests/"))
+    yield "tests", "examples", None, (stems("examples/", files), set(re.findall(r"\w+", tests)))
+    versions = {"pack.pl": r"^version\('([\d.]+)'\)", "Cargo.toml": r'^version = "([\d.]+)"',
+                "CITATION.cff": r"^version: ([\d.]+)", "README.md": r"ev3dev-([\d.]+)\.tgz",
+                "docs/brick.md": r"scp dist/ev3dev-([\d.]+)\.tgz"}
+    for path, pattern in versions.items():
+        there = files.get(path) or papers[path]
+        yield path, "the version of pack.pl", set(re.findall(pattern, there, flags=re.M)), set(
+            re.findall(versions["pack.pl"], files["pack.pl"], flags=re.M))
+    released = re.search(r"^## \[([\d.]+)\] - ([\d-]+)", papers["CHANGELOG.md"], flags=re.M)
+    yield "CITATION.cff, date-released", "the last release in CHANGELOG.md", set(
+        re.findall(r"^date-released: ([\d-]+)", papers["CITATION.cff"], flags=re.M)), {released[2]}
+
+
+def differences(lists):
+    """What one of two lists has and the other has not."""
+    for says, of, names_there, things in lists:
+        if names_there is None:
+            wanted, found = things
+            yield from (f"{says}: {of}: {each} is missing" for each in sorted(wanted - found, key=str))
+            things = wanted
+        else:
+            yield from (f"{says}: {of}: {each} is missing" for each in sorted(things - names_there, key=str))
+            yield from (f"{says}: {of}: there is no {each}" for each in sorted(names_there - things, key=str))
+        if not things:
+            yield f"{says}: {of}: nothing was found"
+
+
 def self_test():
     """A file, a name and a target that are not there are found, and nothing else."""
     house = House({"src/a.rs": "fn here() {}", "src/b.rs": "fn there() {}", "Makefile": "check:"})
@@ -112,6 +218,14 @@ def self_test():
     expected = [(1, "A::here"), (1, "there/2"), (2, "src/c.rs"), (3, "make chek"), (4, "gone")]
     if sorted(found) != expected:
         sys.exit(f"papers.py: found {found}, not {expected}")
+    found = list(differences([("a", "b", {1, 2}, {2, 3}), ("c", "d", None, ({1, 2}, {2})), ("e", "f", set(), set())]))
+    expected = ["a: b: 3 is missing", "a: b: there is no 1", "c: d: 1 is missing", "e: f: nothing was found"]
+    if found != expected:
+        sys.exit(f"papers.py: found {found}, not {expected}")
+    if makefile("# x\na: b\nc:\n.PHONY: a \\\n c\n") != ({"a", "c"}, {"a", "c"}, {"a"}):
+        sys.exit("papers.py: the Makefile is misread")
+    if natives('det fn "a_"(_context) {\nnondet fn "b_"<X<Y>>(context, p, q) {') != {("a_", 0, False), ("b_", 2, True)}:
+        sys.exit("papers.py: natives are misread")
 
 
 def main():
@@ -124,11 +238,13 @@ def main():
         listed += [os.path.relpath(os.path.join(folder, name), ROOT) for name in names_there]
     files = {path: (ROOT / path).read_text(errors="replace") if CODE.search(path) else ""
              for path in listed}
-    make = set(re.findall(r"^([\w-]+):", files["Makefile"], flags=re.M))
+    papers = {path: "" if "/pictures/" in path else (ROOT / path).read_text(errors="replace")
+              for path in listed if path.endswith((".md", ".cff")) or "/pictures/world_" in path}
+    make = makefile(files["Makefile"])[0]
     house = House(files)
     found = [f"{paper}:{line}: there is no {what}" for paper in PAPERS
              for line, what in wrong((ROOT / paper).read_text(), house, make, walks=paper == "ARCHITECTURE.md")]
-    return "\n".join(found) or None
+    return "\n".join([*found, *differences(compared(files, papers))]) or None
 
 
 if __name__ == "__main__":

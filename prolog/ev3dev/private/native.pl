@@ -260,9 +260,6 @@ missing.
 %!  branches_look_(-Seconds, -Bricks) is semidet.
 %!  branches_end_ is semidet.
 %!  guards_ is semidet.
-%!  commands_(-Count) is semidet.
-%!  motors_leave_(+From, +Before) is semidet.
-%!  motors_stop_(+From, +Before) is semidet.
 %!  read_on_ is semidet.
 %!  serve_at_prompt_ is semidet.
 %!  serve_if_due_ is semidet.
@@ -274,6 +271,7 @@ missing.
 
 % Motors
 
+%!  commands_(-Count) is semidet.
 %!  motor_counts_(+Port, +Constant, -Counts) is semidet.
 %!  motor_gear_(?Port, -Ratio) is nondet.
 %!  motor_position_(?Port, -Position) is nondet.
@@ -288,6 +286,8 @@ missing.
 %!  motor_wait_(+Ports, +Timeout, -Reason) is nondet.
 %!  motor_wait_flag_(+Port, +Flag, +Present, -Reason) is nondet.
 %!  motors_run_(+Runs) is semidet.
+%!  motors_leave_(+From, +Before) is semidet.
+%!  motors_stop_(+From, +Before) is semidet.
 %!  run_forever_(+Port, +CountsPerSecond) is semidet.
 %!  stop_all_motors_ is semidet.
 %
@@ -337,10 +337,13 @@ missing.
 %!  button_source_(-Source) is semidet.
 %!  button_wait_(?Key, ?Event, +Timeout, -Reason) is nondet.
 %!  buttons_(-Keys) is semidet.
+%
+%   `src/buttons.rs`
+
 %!  sim_key_(+Button, +IsPress) is semidet.
 %!  sim_plan_key_(+Button, +After, +For) is semidet.
 %
-%   `src/buttons.rs`
+%   `src/sim/buttons.rs`
 
 % Sound
 
@@ -451,8 +454,6 @@ missing.
 
 % Simulator
 
-%!  limit_call_(+Id, :Goal) is semidet.
-%!  limit_insist_(+Id, +Thread, :Goal, +Ball) is semidet.
 %!  sim_active_ is semidet.
 %!  sim_add_(+Fact, -Id) is semidet.
 %!  sim_check_(+Subject, +Fact) is semidet.
@@ -485,6 +486,11 @@ missing.
 %!  sim_wait_(+Seconds, -Reason) is nondet.
 %
 %   `src/sim/mod.rs`
+
+%!  limit_call_(+Id, :Goal) is semidet.
+%!  limit_insist_(+Id, +Thread, :Goal, +Ball) is semidet.
+%
+%   `src/sim/limit.rs`
 
 %!  sim_fence_close_ is det.
 %!  sim_fence_join_(+Path) is det.
