@@ -38,34 +38,10 @@ native_does_nothing :-
 :- use_module(library(xpath)).
 :- use_module(library(sgml), [load_html/3]).
 :- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(ev3dev/view)).
-:- use_module(library(ev3dev/compile)).
-:- use_module(library(ev3dev/colors)).
-:- use_module(library(ev3dev/console)).
-:- use_module(library(ev3dev/jog)).
-:- use_module(library(ev3dev/journal)).
-:- use_module(library(ev3dev/drive)).
-:- use_module(library(ev3dev/calibrate)).
-:- use_module(library(ev3dev/odometry)).
-:- use_module(library(ev3dev/navigation)).
-:- use_module(library(ev3dev/roadmap)).
-:- use_module(library(ev3dev/golog)).
-:- use_module(library(ev3dev/pddl)).
-:- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/planners)).
-:- use_module(library(ev3dev/plnxt)).
-:- use_module(library(ev3dev/raw)).
-:- use_module(library(ev3dev/rules)).
-:- use_module(library(ev3dev/bricks)).
-:- use_module(library(ev3dev/sim_batch)).
-:- use_module(library(ev3dev/sim_fenced)).
-:- use_module(library(ev3dev/random_worlds)).
-:- use_module(library(ev3dev/exercise)).
-:- use_module(library(ev3dev/grid_belief)).
-:- use_module(library(ev3dev/localize)).
-:- use_module(library(ev3dev/map)).
-:- use_module(library(ev3dev/worker)).
+:- use_module(library(ev3dev/private/libraries), [pack_file/2]).
+
+:- forall(pack_file('', File), use_module(File)).
 
 % What one wants to do, and the libraries for it. Each public library is here.
 task('Drive a robot with two wheels',
@@ -119,13 +95,18 @@ main :-
     ).
 
 must_have_a_task :-
-    forall(( public_file(File), file_base_name(File, Base),
-             file_name_extension(Name, pl, Base), Name \== ev3dev ),
-           (   task(_, Names), memberchk(Name, Names)
-           ->  true
-           ;   throw(error(existence_error(task, Name),
-                           context(task/2, 'add it to tools/doc.pl')))
-           )).
+    findall(Name,
+            ( pack_file('', File), file_base_name(File, Base),
+              file_name_extension(Name, pl, Base) ),
+            Libraries),
+    findall(Name, ( task(_, Names), member(Name, Names) ), Listed),
+    subtract(Libraries, Listed, Missing),
+    subtract(Listed, Libraries, Gone),
+    (   Missing-Gone == []-[]
+    ->  true
+    ;   throw(error(existence_error(task, Missing-Gone),
+                    context(task/2, 'libraries without a task, and tasks of none')))
+    ).
 
                 /*******************************
                 *          LIBRARIES           *

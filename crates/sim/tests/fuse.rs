@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 use ev3_sim::{Button, Errno, Machine, Mount, MountError, Port, Shared, WorldSpec};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
-/// Whoever waits longer waits for what never comes, or the machine is much too busy.
+/// A test that waits longer waits for what never comes, or the machine is much too busy.
 const GUARD: Duration = Duration::from_secs(300);
 
 /// A mounted brick with a clock.
