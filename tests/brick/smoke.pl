@@ -99,7 +99,7 @@ export(Module, Name/Arity) :-
 
 problem(Module:Name/Arity, Name/Arity-E) :-
     functor(Head, Name, Arity),
-    (   \+ predicate_property(Module:Head, defined)
+    (   \+ predicate_property(Module:Head, visible)
     ->  E = missing
     ;   Arity =:= 0,
         Module \== ev3dev

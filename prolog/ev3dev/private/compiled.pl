@@ -111,6 +111,7 @@ use_compiled :-
     catch(read_index(File, Index), error(_, _), fail),
     this_prolog(Prolog),
     pack_folder(Pack),
+    has_library(Pack),
     Index = index(Prolog, Pack, Units),
     Units = [unit(Loader, Sum, _, [source(units, Source, Time)])|_],
     catch(( source_time(Source, Time), contents(Loader, Sum) ),
@@ -119,6 +120,16 @@ use_compiled :-
     assertz(indexed(Units)),
     load_files(user:Loader, [if(not_loaded), imports([])]).
 use_compiled.
+
+%   Without a foreign library the sources say so (private/no_library.pl).
+
+has_library(Pack) :-
+    (   Name = lib
+    ;   Name = native
+    ),
+    atomic_list_concat([Pack, /, Name], Folder),
+    exists_directory(Folder),
+    !.
 
 %!  read_index(+File, -Index) is semidet.
 

@@ -173,10 +173,7 @@ no_suitable_file(Pack) :-
     ;   atomic_list_concat(Files, ', ', Found)
     ),
     format(atom(Message),
-           '~w has no native library for this machine (~w, ~w); there is \c
-            ~w. Install Rust from https://rustup.rs and run "make" there, \c
-            or install the binary pack, which "make dist" makes on a PC \c
-            that has Rust (docs/brick.md)',
+           '~w has no native library for this machine (~w, ~w); there is ~w',
            [Pack, Arch, Text, Found]),
     throw(error(existence_error(foreign_library, ev3dev),
                 context(ev3dev_library_file:library_file/1, Message))).
@@ -200,14 +197,31 @@ machine_text(243, _, 'RISC-V').
 %   each file that needs it.
 
 load_or_say :-
-    catch(load_library, error(existence_error(Kind, Name), Context), true),
-    (   var(Kind)
+    catch(load_library, error(Formal, Context), true),
+    (   var(Formal)
     ->  true
-    ;   private_file(no_library, File),
+    ;   why(Formal, Context, Error),
+        private_file(no_library, File),
         load_files(File, [if(not_loaded), imports([])]),
-        ev3dev_no_library:without_library(
-            error(existence_error(Kind, Name), Context))
+        ev3dev_no_library:without_library(Error)
     ).
+
+%   A library that needs a newer C library is none for this machine, either.
+
+why(Formal, Context, error(existence_error(foreign_library, ev3dev),
+                           context(_, Text))) :-
+    (   Formal = shared_object(_, Text0)
+    ->  true
+    ;   Context = context(_, Text0),
+        atom(Text0)
+    ->  true
+    ;   format(atom(Text0), '~p', [Formal])
+    ),
+    pack_folder(Pack),
+    format(atom(Text),
+           '~w. Install Rust from https://rustup.rs and run "make" in ~w, \c
+            or install the binary pack, which "make dist" makes on a PC \c
+            that has Rust (docs/brick.md)', [Text0, Pack]).
 
 private_file(Name, File) :-
     module_property(ev3dev_library_file, file(This)),
