@@ -181,9 +181,10 @@ def python_worker(root, is_smoke=False):
             [python, "-c", "import ev3dev2"], capture_output=True).returncode
 
     if not has_ev3dev2():
-        subprocess.run([sys.executable, "-m", "venv", WORK / "venv"])
-        subprocess.run([python, "-m", "pip", "install", "-q",
-                        "python-ev3dev2==2.1.0.post1"])
+        for command in ([sys.executable, "-m", "venv", WORK / "venv"],
+                        [python, "-m", "pip", "install", "-q", "python-ev3dev2==2.1.0.post1"]):
+            if subprocess.run(command, capture_output=is_smoke).returncode:
+                break
     if not has_ev3dev2():
         if not is_smoke:
             sys.exit("python-ev3dev2 cannot be installed: no column python")

@@ -153,8 +153,8 @@ summary() {
     remember
     echo "longest: $(cat "$logs"/*.result | sort -t $'\t' -k 2,2rn | head -n 6 |
         awk -F '\t' '{ printf "%s%s %d s", sep, $4, $2; sep = ", " }')"
-    sed -nE 's/^% All ([0-9]+) (\(\+[0-9]+ sub-tests\) )?tests passed.*/\1/p; s/^% [Tt]est passed.*/1/p' "$logs"/*.log |
-        awk '{ tests += $1 } END { print tests+0 " tests of Prolog passed" }'
+    sed -nE 's/^% All ([0-9]+) (\(\+([0-9]+) sub-tests\) )?tests passed.*/\1 \3/p; s/^% [Tt]est passed.*/1/p' "$logs"/*.log |
+        awk '{ tests += $1 + $2 } END { print tests+0 " tests of Prolog passed" }'
     cat "$logs"/*.result | awk -F '\t' -v took=$SECONDS '
         { count[$1]++; cpu += $3 }
         END { printf "%d s, %d s of processors\n%d passed, %d failed, %d skipped\n",

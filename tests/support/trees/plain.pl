@@ -34,7 +34,22 @@ plain_start(Root) :-
     make_directory_path(Root).
 
 plain_stop(Root) :-
-    delete_directory_and_contents(Root).
+    delete_tree(100, Root).
+
+%   The process that stays after a crash may write a file once more, while the
+%   others are deleted.
+
+delete_tree(Tries, Root) :-
+    catch(delete_directory_and_contents(Root), Error, true),
+    (   var(Error)
+    ->  true
+    ;   Tries > 1,
+        exists_directory(Root)
+    ->  sleep(0.05),
+        Tries1 is Tries - 1,
+        delete_tree(Tries1, Root)
+    ;   throw(Error)
+    ).
 
 %!  plain_plug(+Port, +Type, +Directory)
 %
