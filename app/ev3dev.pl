@@ -23,7 +23,7 @@
    assertz(user:file_search_path(ev3dev_pack, Pack)).
 :- use_module(library(ev3dev)).
 % The pack has said that its native library is missing.
-:- (   current_module(ev3dev_no_library)
+:- (   module_property(ev3dev_no_library, file(_))
    ->  halt(1)
    ;   true
    ).
