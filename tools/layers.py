@@ -7,7 +7,7 @@
 
 The table is a list of sections. A section begins with the folder of its files
 in brackets; each line is a layer, its folders or files, and, after an arrow,
-the layers it may import. Every file must be in a layer. The most specific name
+the layers it may import. Every file must be in a layer, and every name of the table must be there. The most specific name
 wins. A layer may always import itself. A section whose folder does not exist
 is an error.
 
@@ -313,6 +313,10 @@ def check(top, table, listing=False):
             if layer_of(file, layers) is None:
                 print(f"layers: {folder}/{file} is in no layer")
                 errors += 1
+        for name in (name.rstrip("/") for names, _ in layers.values() for name in names):
+            if name != "." and not any(file == name or file.startswith(name + "/") for file in files):
+                print(f"layers: {folder}/{name} in the table is no file or folder")
+                errors += 1
         for source, target in arrows:
             ours, theirs = layer_of(source, layers), layer_of(target, layers)
             if listing:
@@ -344,6 +348,8 @@ def self_test():
     def run(files, table):
         with tempfile.TemporaryDirectory() as top:
             for name, text in files.items():
+                if text is None:
+                    continue
                 path = os.path.join(top, name)
                 os.makedirs(os.path.dirname(path), exist_ok=True)
                 with open(path, "w", encoding="utf-8") as out:
@@ -370,6 +376,7 @@ def self_test():
         ("an arrow up through the front", {"src/low.rs": "use crate::Device;\n"}, 1, "low.rs (ground) must not import device/mod.rs"),
         ("a circle within a layer", {"src/device/list.rs": "use super::Device;\n"}, 1, "circle of 2: device/list.rs device/mod.rs"),
         ("a file in no layer", {"src/new.rs": ""}, 1, "src/new.rs is in no layer"),
+        ("a layer without a file", {"src/motor/mod.rs": None}, 1, "src/motor in the table is no file"),
     ]
     failed = 0
     for name, change, errors, text in cases:

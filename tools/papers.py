@@ -183,6 +183,30 @@ def compared(files, papers):
     yield "docs/teaching.md", "exercises", set(re.findall(r"`course/([\w-]+)`", papers["docs/teaching.md"])), exercises
     tests = " ".join(text for path, text in files.items() if path.startswith("tests/"))
     yield "tests", "examples", None, (stems("examples/", files), set(re.findall(r"\w+", tests)))
+    everything = " ".join(papers[path] for path in papers if path.endswith(".md") and path != "CHANGELOG.md")
+    commands = set(re.findall(r"^command\((\w+),", files["prolog/ev3dev/private/command_line.pl"], flags=re.M))
+    yield "README.md and docs", "commands of swipl ev3dev", set(
+        re.findall(r"swipl (?:ev3dev|app/ev3dev\.pl) ([a-z]+)", everything)) | set(
+            re.findall(r"^\| `([a-z]+)[^`|]*` \|", papers["docs/view.md"].split("| command |")[1].split("\n\n")[0], flags=re.M)), commands
+    reasons = papers["docs/predicates.md"]
+    reasons = reasons[reasons.index("and `reason(R)`: one of"):]
+    yield "docs/predicates.md, reason(R)", "the reasons of crates/driver", set(
+        re.findall(r"`(\w+)`", reasons[:reasons.index("instead")])), set(
+        re.findall(r'Self::\w+ => "(\w+)"', files["crates/driver/src/motor/wait.rs"]))
+    tables = "".join(text for path, text in files.items() if "/private/sensor_table/" in path)
+    yield "docs/ev3dev-sysfs.md", "sensor types", None, (
+        set(re.findall(r"^type\('([\w-]+)'", tables, flags=re.M)),
+        set(re.findall(r"[\w-]+", papers["docs/ev3dev-sysfs.md"])))
+    facts = files["crates/sim/src/facts.rs"]
+    facts = facts[facts.index("fn vocabulary"):facts.index("fn expected")]
+    yield "docs/worlds.md", "facts of worlds and robots", None, (
+        set(re.findall(r'\("(\w+)", &\[', facts)), set(re.findall(r"`(\w+)\(", papers["docs/worlds.md"])))
+    code = " ".join(text for path, text in files.items() if path.startswith(("prolog/", "src/", "crates/", "tests/", "tools/")))
+    names_used = r"\b(?:EV3DEV_[A-Z_]+|ev3dev_(?:hints|stop_at_\w+|brick))\b"
+    yield "code", "variables and flags in papers", None, (
+        set(re.findall(names_used, everything)), set(re.findall(names_used, code)))
+    yield "papers", "flags in the code", None, (
+        words("prolog/", files, r"create_prolog_flag\((ev3dev_\w+)"), set(re.findall(r"ev3dev_\w+", everything)))
     versions = {"pack.pl": r"^version\('([\d.]+)'\)", "Cargo.toml": r'^version = "([\d.]+)"',
                 "CITATION.cff": r"^version: ([\d.]+)", "README.md": r"ev3dev-([\d.]+)\.tgz",
                 "docs/brick.md": r"scp dist/ev3dev-([\d.]+)\.tgz"}

@@ -206,7 +206,7 @@ load_or_say :-
         ev3dev_no_library:without_library(Error)
     ).
 
-%   A library that needs a newer C library is none for this machine, either.
+%   A library that needs a newer C library does not suit this machine, either.
 
 why(Formal, Context, error(existence_error(foreign_library, ev3dev),
                            context(_, Text))) :-
