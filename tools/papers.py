@@ -207,6 +207,18 @@ def compared(files, papers):
         set(re.findall(names_used, everything)), set(re.findall(names_used, code)))
     yield "papers", "flags in the code", None, (
         words("prolog/", files, r"create_prolog_flag\((ev3dev_\w+)"), set(re.findall(r"ev3dev_\w+", everything)))
+    chapters = {Path(path).stem for path in papers if re.fullmatch(r"docs/[^/]+\.md", path)}
+    yield "tools/site.py", "papers of docs", None, (
+        chapters, {name for both in re.findall(r'docs/([\w-]+)\.md|\("([\w-]+)", "', files["tools/site.py"])
+                   for name in both})
+    yield "links in papers", "papers of docs", None, (
+        chapters, set(re.findall(r"\]\((?:\.\./)?(?:docs/)?([\w-]+)\.md", everything)))
+    examples = stems("examples/", files)
+    shown = set(re.findall(r"[a-z_]+", re.search(r"^examples=\(([^)]*)\)", files["tools/playground.sh"], flags=re.M)[1]))
+    shown |= set(re.findall(r"^(?:demo|film)\((\w+),", files["tools/demo.pl"] + files["tools/films.pl"], flags=re.M))
+    yield "examples", "demo.pl, films.pl and playground.sh", None, (shown, examples)
+    yield "docs/pictures", "films of films.pl", {Path(path).stem[5:] for path in papers if "pictures/film-" in path}, set(
+        re.findall(r"^film\((\w+),", files["tools/films.pl"], flags=re.M))
     versions = {"pack.pl": r"^version\('([\d.]+)'\)", "Cargo.toml": r'^version = "([\d.]+)"',
                 "CITATION.cff": r"^version: ([\d.]+)", "README.md": r"ev3dev-([\d.]+)\.tgz",
                 "docs/brick.md": r"scp dist/ev3dev-([\d.]+)\.tgz"}
@@ -263,7 +275,7 @@ def main():
     files = {path: (ROOT / path).read_text(errors="replace") if CODE.search(path) else ""
              for path in listed}
     papers = {path: "" if "/pictures/" in path else (ROOT / path).read_text(errors="replace")
-              for path in listed if path.endswith((".md", ".cff")) or "/pictures/world_" in path}
+              for path in listed if path.endswith((".md", ".cff")) or re.search("/pictures/(?:world_|film-)", path)}
     make = makefile(files["Makefile"])[0]
     house = House(files)
     found = [f"{paper}:{line}: there is no {what}" for paper in PAPERS

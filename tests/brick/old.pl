@@ -21,6 +21,8 @@ main :-
     load_pack,
     read_list('tests/brick/swipl-7.2.3.txt'),
     read_list('tests/brick/swipl-7.2.3-arguments.txt'),
+    forall(( for_new(File), \+ exists_file(File) ),
+           throw(error(existence_error(file, File), context(for_new/1, _)))),
     findall(Sample, wrong(Sample), Samples),
     findall(File, source(File), Files),
     findall(Found,
