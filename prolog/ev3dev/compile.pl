@@ -77,6 +77,8 @@ unit(rules, ['ev3dev/rules']).
 unit(plnxt, ['ev3dev/plnxt']).
 unit(golog, ['ev3dev/golog']).
 unit(pddl, ['ev3dev/pddl']).
+unit(journal, ['ev3dev/journal']).
+unit(view, ['ev3dev/view']).
 
 pack_file(Name, File) :-
     pack_folder(Pack),

@@ -214,6 +214,11 @@ test(is_used_by_each_library_that_is_loaded_first,
                   write(compiled) ; write(sources) )",
            [Library]),
     run(Goal, Result).
+test(each_library_that_is_loaded_first_is_in_a_unit, true(Result == 0-"")) :-
+    run("use_module(library(ev3dev/compile)), use_module(library(ev3dev/private/libraries)),
+         forall(( in_library(L, _), L \\== compile, atom_concat('ev3dev/', L, E),
+                  \\+ ( ev3dev_compile:unit(_, Es), '$member'(E, Es) ) ),
+                format('~w ', [L]))", Result).
 test(has_the_same_exports) :-
     same_compiled_or_not(
         "use_module(library(ev3dev)), module_property(ev3dev, exports(Es)),

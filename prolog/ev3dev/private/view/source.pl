@@ -4,7 +4,7 @@
             renew_active/0,
             program_directory/1         % -Directory
           ]).
-:- use_module(library(lists), [last/2]).
+:- use_module(library(lists), [last/2, member/2]).
 :- use_module('../causes', [active_clause/1]).
 :- use_module('../native', [view_keep_/2]).
 :- use_module(program, [in_main/1, program_state/1]).
@@ -125,7 +125,8 @@ library(Folder) :-
     sub_atom(Here, 0, Before, _, Prolog),
     (   Folder = Prolog
     ;   file_directory_name(Prolog, Pack),
-        atom_concat(Pack, '/app', Folder)
+        member(Name, ['/app', '/compiled']),
+        atom_concat(Pack, Name, Folder)
     ).
 
 included(File) :-
