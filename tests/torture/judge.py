@@ -12,7 +12,7 @@ import subprocess
 import time
 
 from programs import CRASHES, FINISHES, KEYS, LIMITED, OWN, STANDING, TO_HALT
-from trees import Mount, Plain
+from trees import GUARD_S, Mount, Plain
 
 END_S = 2.5  # from a signal to the end of the process
 REST_S = 0.5  # from the end of the process, or a stop of it, to motors that rest
@@ -96,7 +96,7 @@ class Stage:
 
     def clear(self):
         """Ends what is left, by its number."""
-        deadline = time.monotonic() + 5
+        deadline = time.monotonic() + GUARD_S
         while (left := self.descendants()) and time.monotonic() < deadline:
             for pid in left:
                 try:
