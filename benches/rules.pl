@@ -44,7 +44,10 @@ rules(Count, Last, Rules) :-
 %   The motor's command has just been written.
 reacted(Changer, Distance) :-
     get_time(Time),
-    thread_send_message(Changer, reacted(Distance, Time)).
+    % After the last change it ends, and the rule may apply once more.
+    catch(thread_send_message(Changer, reacted(Distance, Time)),
+          error(existence_error(_, _), _),
+          true).
 
 %   Another thread changes what the sensor shows, at no certain time of a period.
 changes(Count, Main) :-

@@ -131,6 +131,8 @@ class Mount:
         while len(list(self.root.glob("tacho-motor/*"))) < 3 and time.monotonic() < deadline:
             time.sleep(0.01)
         for _, folder in self.motors():
+            while not os.access(folder / "command", os.W_OK):  # udev is not there yet
+                time.sleep(0.01)
             (folder / "command").write_text("reset" if folder.parent.name == "tacho-motor" else "float")
         self.tell("sim_place(60, 60, 0)")
         while self.running() and time.monotonic() < deadline:
