@@ -1,7 +1,8 @@
 // Prolog in its worker, as the page uses it.
 
-/** So long, in milliseconds, Prolog may take to answer STOP. Then its worker is ended. */
-const PATIENCE = 1000;
+/** After so long, in milliseconds, another worker begins to compute beside one that does not
+    answer STOP: what has not answered when that is done computes without a pause, and is ended. */
+const PATIENCE = 500;
 /** So long nobody may ask for a frame, as a view that is not seen does not; then the page does. */
 const UNSEEN = 250;
 
@@ -45,7 +46,7 @@ export class Machine {
       this.view?.take(message);
       return;
     }
-    if (message.what === 'stop') clearTimeout(this.late);
+    if (message.what === 'stop') this.answers();
     if (message.what === 'begin' || message.what === 'choose') this.remember(message.type === 'done', this.begun.shift());
     if (!this.on.heard(message)) this.view?.take(message);
   }
@@ -96,13 +97,22 @@ export class Machine {
   stop() {
     if (!this.open) return;
     this.send('stop');
+    this.answers();
+    this.late = setTimeout(() => {
+      this.beside = new Worker('patience.js');
+      this.beside.onmessage = () => this.fails('The program computed without a pause, and was ended. Prolog has begun again; your text is as it was.');
+    }, PATIENCE);
+  }
+
+  /** Nothing is waited for any more. */
+  answers() {
     clearTimeout(this.late);
-    this.late = setTimeout(() => this.fails('The program computed without a pause, and was ended. Prolog has begun again; your text is as it was.'), PATIENCE);
+    this.beside?.terminate();
   }
 
   /** Begins again with another worker. */
   fails(why) {
-    clearTimeout(this.late);
+    this.answers();
     const before = this.open;
     this.open = false;
     this.worker.terminate();

@@ -21,7 +21,7 @@ fs.mkdirSync(path.join(to, 'view'), { recursive: true });
 // The live view, with another line to the program.
 for (const [name, bytes] of Object.entries(folder(path.join(home, 'prolog/ev3dev/view'), 'view'))) fs.writeFileSync(path.join(to, name), bytes);
 fs.copyFileSync(here('wire.js'), path.join(to, 'view/wire.js'));
-for (const name of ['index.html', 'bench.css']) fs.copyFileSync(here(name), path.join(to, name));
+for (const name of ['index.html', 'bench.css', 'patience.js']) fs.copyFileSync(here(name), path.join(to, name));
 for (const name of ['examples.json', 'words.json']) fs.copyFileSync(path.join(modules, name), path.join(to, name));
 fs.copyFileSync(locateFile('swipl-web.js'), path.join(to, 'swipl-web.js'));
 
