@@ -32,7 +32,7 @@ setup:
 # Builds the native library into lib/
 build: setup
 	@command -v $(CARGO) >/dev/null || { \
-	    echo "Building this pack needs cargo: install Rust from https://rustup.rs, or use the binary pack." >&2; \
+	    echo "Building this pack needs cargo: install Rust from https://rustup.rs, or use the binary pack that \`make dist\` makes on a PC that has it (docs/brick.md)." >&2; \
 	    exit 1; }
 	@[ -e "$${CARGO_TARGET_DIR:-target}/release/libev3dev.so" ] || \
 	    echo "Building the native library (a minute or two) ..." >&2
