@@ -13,8 +13,8 @@
 # SWIPL names another Prolog, JOBS how many run at once (default: one for each
 # processor, and two that wait). A leftover choice point or any other warning fails
 # the run (before SWI-Prolog 9 a failed test alone). So does a job of which a process
-# computes for LIMIT seconds, 1800 by default, or which does nothing at all for ten
-# minutes. No limit is about how long a job takes: that depends on the rest of the
+# computes for LIMIT seconds, 1800 by default, or which prints nothing and computes for
+# less than half a minute in ten minutes. No limit is about how long a job takes: that depends on the rest of the
 # machine. Hints (tests/behavior/test_hints.pl) are off, as tests make many calls that
 # fail.
 set -euo pipefail
@@ -101,20 +101,22 @@ only_skipped() {
     [ -s "$1" ] && ! grep -qv '^skipped: ' "$1"
 }
 
-# A job none of whose processes has computed for ten minutes waits for what will never come
+# A job that prints nothing and hardly computes for ten minutes waits for what will never come;
+# a server that it has started computes a little all the time
 watch_idle() {
     trap - EXIT
-    local -A before=() looks=()
-    local session of now
+    local -A since=() printed=() looks=()
+    local session of now size
     while sleep 15; do
         for session in "$logs"/*.session; do
             of=$(cat "$session" 2>/dev/null || true)
             [ -n "$of" ] || continue
             now=$(ticks "$of")
-            if [ "$now" = "${before[$of]:-}" ]; then
+            size=$(stat -c %s "${session%.session}.log")
+            if [ "$size" = "${printed[$of]:-}" ] && [ $((now - ${since[$of]})) -lt 3000 ]; then
                 looks[$of]=$((${looks[$of]} + 1))
             else
-                before[$of]=$now looks[$of]=0
+                since[$of]=$now printed[$of]=$size looks[$of]=0
             fi
             if [ "${looks[$of]}" -ge 40 ]; then
                 echo "ERROR: ended, as it has done nothing for ten minutes" >>"${session%.session}.log"
