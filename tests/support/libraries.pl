@@ -38,6 +38,20 @@ known :-
     exports(_, _),
     !.
 known :-
+    asked(Output),
+    !,
+    open_string(Output, In),
+    repeat,
+    read(In, Term),
+    (   Term == end_of_file
+    ->  !
+    ;   assertz(Term),
+        fail
+    ).
+known :-
+    throw(error(system_error('the libraries could not be asked'), _)).
+
+asked(Output) :-
     run_program(":- use_module(library(ev3dev)).
 
         file(ev3dev, File) :-
@@ -77,15 +91,7 @@ known :-
                                    \\+ for_the_pack(Name, PI) ), PIs),
                      format('~q.~n', [exports(Name, PIs)]) )).",
                 [goal(main)], Status, Output),
-    must_be_exit(Status, Output),
-    open_string(Output, In),
-    repeat,
-    read(In, Term),
-    (   Term == end_of_file
-    ->  !
-    ;   assertz(Term),
-        fail
-    ).
+    must_be_exit(Status, Output).
 
 must_be_exit(exit(0), _) :-
     !.

@@ -1,5 +1,10 @@
 % Checks over the pack's Prolog files; run by `make lint`.
 
+% The comments of what is loaded are kept from here on; so it is read from its sources.
+:- use_module(library(pldoc)).
+:- use_module(library(pldoc/doc_process)).
+:- doc_collect(true).
+
 :- use_module(trees).
 :- use_module(library(ev3dev)).
 :- use_module(papers).
@@ -7,16 +12,12 @@
 :- use_module(library(ev3dev/private/told)).
 :- use_module(library(check)).
 :- use_module(library(prolog_xref)).
-:- use_module(library(pldoc)).
-:- use_module(library(pldoc/doc_process)).
-:- doc_collect(true).
 
 :- dynamic complaint/0.
 
 main :-
     self_test,
     load_all,
-    load_again,
     check,
     forall(undocumented(Module, PI), complain(undocumented(Module:PI))),
     forall(( source(File), bad_line(File, Line, Why) ), complain(line(File, Line, Why))),
@@ -34,13 +35,6 @@ load_all :-
     forall(( ev3dev_libraries:pack_file(Folder, File),
              \+ memberchk(Folder, [worlds, robots]) ),
            load_files(File, [if(not_loaded), imports([])])).
-
-% Documentation is kept only of what is loaded after doc_collect/1.
-load_again :-
-    forall(library_module(Module),
-           ( module_property(Module, file(File)),
-             load_files(File, [if(true), imports([])])
-           )).
 
 complain(What) :-
     assertz(complaint),
