@@ -64,21 +64,21 @@ by_length() {
 
 # one NUMBER JOB: its output when it is over
 one() {
-    local base=$logs/$1 job=$2 name=${2%%=*} how=passed took
+    local base=$logs/$1 job=$2 name=${2%%=*} how=passed wall cpu
     begin "$job" "$base" || how=failed
-    took=$(cat "$base.took" 2>/dev/null || echo "0 0")
+    read -r wall cpu <"$base.took"
     [ $how = failed ] || ! only_skipped "$base.log" || how=skipped
     {
-        printf '== %s: %s, %s s, %s s of a processor\n' "$name" $how ${took}
+        printf '== %s: %s, %s s, %s s of a processor\n' "$name" $how "$wall" "$cpu"
         cat "$base.log"
     }
-    printf '%s\t%s\t%s\t%s\n' $how ${took} "$name" >"$base.new"
+    printf '%s\t%s\t%s\t%s\n' $how "$wall" "$cpu" "$name" >"$base.new"
     mv "$base.new" "$base.result"
 }
 
 # begin JOB BASE: runs it in a session of its own, whose number is in BASE.session
 begin() {
-    local TIMEFORMAT="%1R %1U+%1S"
+    local TIMEFORMAT="%1R %1U+%1S" how=0
     # shellcheck disable=SC2016
     { time setsid --wait bash -c '
         echo $$ >"$2.session"
@@ -86,7 +86,7 @@ begin() {
         case $1 in
         *=*) eval "${1#*=}" ;;
         *) exec "$SWIPL" --on-warning=status --on-error=status -g "$3" -t halt "$1" ;;
-        esac' -- "$1" "$2" "$plunit" </dev/null >"$2.log" 2>&1; } 2>"$2.time" && local how=0 || local how=$?
+        esac' -- "$1" "$2" "$plunit" </dev/null >"$2.log" 2>&1; } 2>"$2.time" || how=$?
     rm -f "$2.session"
     tail -n 1 "$2.time" | awk '{ split($2, cpu, "+"); print $1, cpu[1] + cpu[2] }' >"$2.took"
     return $how
@@ -142,11 +142,11 @@ end_all() {
 }
 
 summary() {
-    local how took cpu name base
+    local how name base
     echo "== Summary"
     for base in "$logs"/*.result; do
         base=${base%.result}
-        IFS=$'\t' read -r how took cpu name <"$base.result"
+        IFS=$'\t' read -r how _ _ name <"$base.result"
         [ "$how" = failed ] || continue
         echo "FAILED: $name"
         first_lines "$base.log" | cut -c 1-160 | sed 's/^/    /'

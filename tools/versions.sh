@@ -79,7 +79,7 @@ try() {
     # Emulated, a terminal is slow, and its keys are not those of a brick
     [[ $name == *arm* ]] || step "$name: sessions" sessions &
     # The large ones first, so that nothing is left to wait for at the end
-    # shellcheck disable=SC2046,SC2086
+    # shellcheck disable=SC2045,SC2086
     for file in $(ls -S -- ${SUITE:-tests/prolog/test_*.pl tests/behavior/test_*.pl}); do
         while [[ $(jobs -rp | wc -l) -ge ${JOBS:-$(($(nproc) + 2))} ]]; do
             wait -n
