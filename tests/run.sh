@@ -167,7 +167,7 @@ summary() {
 # first_lines LOG: where it goes wrong, or else its end
 first_lines() {
     local lines
-    lines=$(grep -nEm 1 '(^|[^a-z])(ERROR|Warning|FAILED|not ok|panicked|error)' "$1" | cut -d : -f 1)
+    lines=$(grep -nEm 1 '(^|[^a-z])(ERROR|Warning|FAILED|not ok|panicked|error)' "$1" | cut -d : -f 1 || true)
     if [ -n "$lines" ]; then
         tail -n "+$lines" "$1" | head -n 8
     else
