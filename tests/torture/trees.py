@@ -1,6 +1,5 @@
 """What programs drive: a plain tree of files, and the files of a simulation in another process."""
 
-import os
 import shutil
 import subprocess
 import time
@@ -96,6 +95,17 @@ class Plain:
         """Nothing is kept."""
 
 
+def written(file, text):
+    """Writes to a device that has just been plugged in: udev lets a normal user do so a little later."""
+    while True:
+        try:
+            file.write_text(text)
+        except PermissionError:
+            time.sleep(0.01)
+        else:
+            return
+
+
 class Mount:
     """The files of a simulation that another Prolog serves."""
 
@@ -131,9 +141,7 @@ class Mount:
         while len(list(self.root.glob("tacho-motor/*"))) < 3 and time.monotonic() < deadline:
             time.sleep(0.01)
         for _, folder in self.motors():
-            while not os.access(folder / "command", os.W_OK):  # udev is not there yet
-                time.sleep(0.01)
-            (folder / "command").write_text("reset" if folder.parent.name == "tacho-motor" else "float")
+            written(folder / "command", "reset" if folder.parent.name == "tacho-motor" else "float")
         self.tell("sim_place(60, 60, 0)")
         while self.running() and time.monotonic() < deadline:
             time.sleep(0.01)
