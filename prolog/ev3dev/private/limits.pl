@@ -264,13 +264,28 @@ passed(Before, Now, Passed) :-
     ;   Passed = 0
     ).
 
-%   Computing counts a tenth: a step may take long, and be one inference.
+%   Computing counts a tenth: a step may take long, and be one inference. To
+%   wait for a processor counts nothing.
 used_so_far(All, Now, Idle) :-
     statistics(inferences, All),
     statistics(cputime, Computed),
+    waited_for_processor(Delay),
     get_time(Wall),
-    Idle is Wall - 0.9*Computed,
+    Idle is Wall - 0.9*Computed - Delay,
     ignore(clock(Now)).
+
+%   The kernel says it in nanoseconds, in the second number of this file. If
+%   it does not, such waiting counts as idle.
+waited_for_processor(Seconds) :-
+    catch(setup_call_cleanup(
+              open('/proc/thread-self/schedstat', read, In),
+              read_string(In, _, Text),
+              close(In)), error(_, _), fail),
+    split_string(Text, " ", "", [_, Delay|_]),
+    number_string(Nanoseconds, Delay),
+    !,
+    Seconds is Nanoseconds/1.0e9.
+waited_for_processor(0).
 
                 /*******************************
                 *        OTHER CLOCKS          *
