@@ -54,8 +54,8 @@ main() {
     check_symbols "$file"
     check_texts "$file"
 
-    limit=3600000
-    [[ $name == armel ]] && limit=2200000
+    limit=3650000
+    [[ $name == armel ]] && limit=2250000
     size=$(stat -c %s "$file")
     [[ $size -le $limit ]] || complain "has $size bytes; $limit is the limit"
 

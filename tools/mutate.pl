@@ -220,6 +220,7 @@ text(Text, Position, Part) :-
 tests([arguments, domains, errors],       [errors, bad_input, motors, robot]).
 tests([attributes],                       [motor_settings, dc_motors, driver, ports]).
 tests([batch_pool, batch_redis, batch_worker, descriptors], [sim_batch]).
+tests([fenced],                           [sim_fenced]).
 tests([brick, facts, world_name],         [sim, bricks, view, planners]).
 tests([bricks],                           [bricks, worker]).
 tests([causes],                           [journal, events]).
@@ -241,6 +242,7 @@ tests([relaxed, ground, pddl_text, s_expressions], [pddl]).
 tests([roadmap_arguments],                [roadmap, navigation]).
 tests([robot],                            [robot, hints]).
 tests([sensor_type],                      [sensors, calibrate, raw]).
+tests([usage],                            [sim_fenced, sim_batch]).
 tests([waits],                            [events, rules, sim_time, threads]).
 
 tests_of(_, Options, Tests) :-

@@ -83,9 +83,11 @@ machine has to do.
       - robot(Robot), noise(Boolean)
         As for sim_start/2.
       - cpu(Seconds)
-        How much time of a processor a run may use. Default is 10.
-      - wall(Seconds)
-        How long a run may take. Default is 30.
+        How much time of a processor a run may use. Default is 10. There is
+        one second more for each second of the robot's time.
+      - sleep(Seconds)
+        How long a run may sleep without asking the robot anything. Default
+        is 30.
       - memory(Megabytes)
         Default is 2000.
       - solution(File)
@@ -107,8 +109,13 @@ machine has to do.
 
 A program gets for each score the mean of its runs. A run earns nothing in
 which the robot was not used, and none that had to be ended by a limit on
-processor time, memory, wall time or output. If that happened with the first
-two seeds, the others are not run.
+processor time, memory, sleep or output. If that happened with the first two
+seeds, the others are not run.
+
+What else the machine has to do changes no mark: only what the program itself
+does counts for its limits, and its random numbers follow the seed of the run.
+The text of the exercise goes into them, too, so a comment in the copy that
+marks is enough, and nobody can tell the seed by these numbers.
 
 ## What a run was like {#exercise-runs}
 

@@ -6,7 +6,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
 :- use_module(private/arguments,
-              [ limit_option/2, must_be_options/3, number_option/4, option/3,
+              [ limit_option/3, must_be_options/3, option/3,
                 take_options/4 ]).
 :- use_module(private/errors,
               [in_own_name/1, must_be/2, term_expansion/4]).
@@ -54,22 +54,25 @@ processor as with many.
 %       It threw an error. Message is an atom, what Prolog would print.
 %     - error(died)
 %       Its process ended without a score, twice: by a crash, or by halt/0.
-%     - limit(wall)
+%     - limit(sleep)
 %     - limit(cpu)
-%       It took too long.
+%       It slept or computed for too long.
 %
 %   Options are those of sim_start/2 but `seed`, and
 %
 %     - world(World)
 %       Default is `room`. With `none` no simulation is started: Test gets the
-%       seed, too, before its score, and may start its own.
+%       seed, too, before its score, and may start its own. Random numbers
+%       follow the seed in any case.
 %     - workers(Number)
 %       How many runs there are at once. By default one for each processor.
-%     - wall(Seconds)
-%       How long a run may take. Default is 60.
+%     - sleep(Seconds)
+%       How long a run may sleep, in all its processes at once, as in sleep/1
+%       or a read, or `infinite`. Default is 60.
 %     - cpu(Seconds)
-%       How much time of a processor a run may use, or `infinite`: the
-%       default. This and `wall` are looked at five times a second.
+%       How much time of a processor a run and its processes may use, or
+%       `infinite`. Default is 60. No other program can make a run come to
+%       these limits. They are looked at five times a second.
 %     - redis(Address)
 %       Have the workers of a Redis server make the runs, Host or Host:Port:
 %       on each machine that takes part `swipl ev3dev work --redis Host:Port`
@@ -101,12 +104,12 @@ sim_batch(File, Test, Seeds, Scores, Options) :-
     must_be(callable, Test),
     must_be(list(integer), Seeds),
     must_be_options(sim_batch_option,
-                    [ world, workers, wall, cpu, progress, redis,
+                    [ world, workers, sleep, cpu, progress, redis,
                       clock, robot, noise, screen ], Options),
-    take_options([world, workers, wall, cpu, progress, redis], Options,
+    take_options([world, workers, sleep, cpu, progress, redis], Options,
                  Own, Sim),
     option(world(World), Own, room),
-    own_options(Own, Workers, Wall, Cpu, Progress),
+    own_options(Own, Workers, Limits, Progress),
     option(redis(Address), Own, none),
     (   Address == none
     ->  Server = none
@@ -116,7 +119,6 @@ sim_batch(File, Test, Seeds, Scores, Options) :-
     in_own_name(absolute_file_name(File, Path,
                                    [file_type(prolog), access(read)])),
     length(Seeds, All),
-    Limits = limits(Wall, Cpu),
     (   Server = redis(HostPort)
     ->  use_module(library(ev3dev/private/batch_redis), []),
         ev3dev_batch_redis:redis_batch(
@@ -149,15 +151,15 @@ sim_batch_work(Address, Workers) :-
     use_module(library(ev3dev/private/batch_redis), []),
     ev3dev_batch_redis:redis_work(HostPort, Workers).
 
-own_options(Options, Workers, Wall, Cpu, Progress) :-
+own_options(Options, Workers, limits(Sleep, Cpu), Progress) :-
     (   current_prolog_flag(cpu_count, Processors)
     ->  true
     ;   Processors = 1
     ),
     option(workers(Workers), Options, Processors),
     must_be(positive_integer, Workers),
-    number_option(wall(Wall), seconds, Options, 60),
-    limit_option(cpu(Cpu), Options),
+    limit_option(sleep(Sleep), Options, 60),
+    limit_option(cpu(Cpu), Options, 60),
     (   stream_property(user_error, tty(true))
     ->  Terminal = true
     ;   Terminal = false

@@ -6,14 +6,18 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, [pack_folder/1]).
 :- use_module(private/arguments,
-              [ limit_option/2, must_be_options/3, number_option/4,
+              [ limit_option/2, limit_option/3, must_be_options/3,
                 option/3 ]).
+:- use_module(private/chance, [branch_seed/1]).
 :- use_module(private/directory, [new_directory/2]).
 :- use_module(private/errors,
               [in_own_name/1, must_be/2, term_expansion/4, throw_error/3]).
 :- use_module(private/native,
               [ sim_fence_close_/0, sim_fence_open_/1,
-                sim_fence_serve_/3 ]).
+                sim_fence_serve_/3, sim_fence_silent_/0 ]).
+:- use_module(private/usage,
+              [ usage_age/2, usage_begins/1, usage_beyond/3, usage_goes_on/5,
+                usage_heard/2 ]).
 :- use_module(sim_time, [sim_time/1]).
 :- use_module(library(filesex), [delete_directory_and_contents/1]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
@@ -26,8 +30,9 @@
 
 The running simulation shows its robot to a program in another process: the
 files of motors, sensors, buttons and screen, and nothing else. There are no
-sim_pose/3, no world and no seed. The clock is virtual all the same, so each
-run is the same.
+sim_pose/3, no world and no seed. The clock is virtual all the same, and the
+program's random numbers follow the seed of the simulation, so each run is the
+same, whatever else the machine has to do.
 
 ```
 ?- sim_start(maze, [clock(virtual), seed(7)]),
@@ -50,12 +55,16 @@ Ended = over,
 %       It has crashed.
 %     - over
 %       Its simulated time was over.
-%     - limit(wall)
+%     - limit(sleep)
 %     - limit(cpu)
 %     - limit(output)
-%       It took too long, or has printed too much.
+%       It slept or computed for too long, or has printed too much.
 %     - refused(Why)
 %       It has sent what no program sends by these libraries. Why is a string.
+%     - lost
+%       Nothing can be said of it: for ten minutes it neither slept nor could
+%       compute, or it had half an hour and has come to no limit. The machine
+%       was too busy.
 %
 %   Only in the first two cases did it end by itself; in the others it is
 %   killed with all its processes, and its motors may still run. Options:
@@ -64,11 +73,19 @@ Ended = over,
 %       What to call after File was loaded. Default is `main`.
 %     - seconds(Seconds)
 %       When its simulated time is over, counted from now. By default never.
-%     - wall(Seconds)
-%       Default is 60.
+%     - sleep(Seconds)
+%       How long it may sleep without asking the robot anything, as in
+%       sleep/1 or a read: all that it does so together, or `infinite`.
+%       Default is 60. Time in which one of its threads could run, or waits
+%       for an answer, does not count.
 %     - cpu(Seconds)
-%       How much time of a processor it may use, in whole seconds. By default
-%       as much as it likes.
+%       How much time of a processor all its processes may use together, or
+%       `infinite`. Default is 60. There is one second more for each second
+%       of simulated time.
+%     - salt(Text)
+%       The seed of its random numbers is made of Text and the seed of the
+%       simulation. Who does not know Text cannot tell the latter by these
+%       numbers. Default is `''`.
 %     - memory(Megabytes)
 %       How much memory each of its processes may use. By default as much as
 %       it likes.
@@ -97,13 +114,13 @@ sim_fenced(File, Ended) :-
 
 sim_fenced(File, Ended, Options) :-
     must_be_options(sim_fenced_option,
-                    [ goal, seconds, wall, cpu, memory, enclosed, output,
-                      told ], Options),
+                    [ goal, seconds, sleep, cpu, memory, enclosed, output,
+                      told, salt ], Options),
     option(goal(Goal), Options, main),
     must_be(callable, Goal),
-    number_option(wall(Wall), seconds, Options, 60),
     limit_option(seconds(Seconds), Options),
-    limit_option(cpu(Cpu), Options),
+    limit_option(sleep(Sleep), Options, 60),
+    limit_option(cpu(Cpu), Options, 60),
     option(memory(Megabytes), Options, unlimited),
     (   Megabytes == unlimited
     ->  true
@@ -117,14 +134,17 @@ sim_fenced(File, Ended, Options) :-
                     'bubblewrap is not installed, or may not be used')
     ;   true
     ),
+    option(salt(Salt), Options, ''),
+    must_be(text, Salt),
+    own_seed(Salt, Seed),
     option(output(Text), Options, _),
     option(told(Told), Options, none),
     in_own_name(absolute_file_name(File, Path,
                                    [file_type(prolog), access(read)])),
     setup_call_cleanup(
         fence_directory(Directory),
-        in_directory(Directory, Path, Goal,
-                     limits(Seconds, Wall, Cpu, Megabytes, Enclosed), Ended,
+        in_directory(Directory, Path, Goal, Seed,
+                     limits(Seconds, Sleep, Cpu, Megabytes, Enclosed), Ended,
                      Text, Told),
         ( sim_fence_close_, delete_directory_and_contents(Directory) )).
 
@@ -135,8 +155,8 @@ fence_directory(Directory) :-
     atom_concat(Directory, '/own', Own),
     make_directory(Own).
 
-in_directory(Directory, Path, Goal, limits(Seconds, Wall, Cpu, Memory, Shut),
-             Ended, Text, Told) :-
+in_directory(Directory, Path, Goal, Seed,
+             limits(Seconds, Sleep, Cpu, Memory, Shut), Ended, Text, Told) :-
     atom_concat(Directory, '/own/robot', Socket),
     atom_concat(Directory, '/own/told', Tells),
     atom_concat(Directory, '/output', Output),
@@ -150,25 +170,20 @@ in_directory(Directory, Path, Goal, limits(Seconds, Wall, Cpu, Memory, Shut),
     ->  Until = inf
     ;   Until is Now + Seconds
     ),
-    get_time(Began),
-    Deadline is Began + Wall,
     (   Told == none
     ->  ToldBy = ''
     ;   ToldBy = Tells
     ),
+    processor_time(Cpu, Now, Until, AtMost),
+    usage_begins(Used),
     setup_call_cleanup(
-        start(Directory, [Socket, ToldBy], Output, Path, Goal,
-              Cpu-Memory-Shut, Pid),
-        served(Pid, Until, Deadline, Ended0),
+        start(Directory, [Socket, ToldBy, Seed], Output, Path, Goal,
+              AtMost-Memory-Shut, Pid),
+        served(Pid, Until, limits(Sleep, Cpu, Now), Used, Ended0),
         ended(Pid, Directory, Shut)),
-    get_time(Over),
     size_file(Output, Size),
     (   Size >= 1 << 20
     ->  Ended = limit(output)
-    ;   memberchk(Ended0, [killed(9), exit(137)]),  % what bwrap makes of it
-        Cpu \== infinite,
-        Over-Began > Cpu/4                          % it may have threads
-    ->  Ended = limit(cpu)
     ;   Ended = Ended0
     ),
     read_file_to_string(Output, Text, [encoding(utf8)]),
@@ -177,11 +192,35 @@ in_directory(Directory, Path, Goal, limits(Seconds, Wall, Cpu, Memory, Shut),
     ;   what_was_told(Tells, Told)
     ).
 
+%   The seed of the program's own numbers. It draws them in another process,
+%   so these here go on.
+
+own_seed(Salt, Seed) :-
+    branch_seed(Drawn),
+    (   Drawn == none
+    ->  Seed = ''
+    ;   variant_sha1(seed(Salt, Drawn), Hash),
+        sub_atom(Hash, 0, 15, _, Digits),
+        atom_concat('0x', Digits, Number),
+        atom_number(Number, Seed)
+    ).
+
+%!  processor_time(+Cpu, +From, +Time, -Seconds) is det.
+%
+%   How much time of a processor may be used until the simulated Time.
+
+processor_time(Cpu, From, Time, Seconds) :-
+    (   ( Cpu == infinite ; Time == inf )
+    ->  Seconds = infinite
+    ;   Seconds is Cpu + Time - From
+    ).
+
 %   What is shut in dies with bwrap. Otherwise a process may have left the
 %   group; it still has the environment that it began with.
 
 ended(Pid, Directory, Shut) :-
     catch(process_group_kill(Pid, kill), _, true),
+    catch(process_wait(Pid, _, [timeout(10)]), _, true),
     (   Shut == true
     ->  true
     ;   atom_concat('EV3DEV_FENCED=', Directory, Mark),
@@ -215,11 +254,15 @@ what_was_told(File, Lines) :-
     ).
 
 %   The shell's limits: no file longer than 1 MB (2048 blocks of 512 bytes),
-%   and no core dump. Prolog is the one that runs this.
-start(Directory, [Socket, Tells], Output, Path, Goal, Cpu-Memory-Shut, Pid) :-
+%   and no core dump. Prolog is the one that runs this. The limit of processor
+%   time is for a process that lives on by itself; the kernel measures it
+%   coarsely.
+start(Directory, [Socket, Tells, Seed], Output, Path, Goal,
+      Cpu-Memory-Shut, Pid) :-
     current_prolog_flag(executable, Prolog),
     pack_folder(Pack),
     atomic_list_concat(['library=', Pack, '/prolog'], Alias),
+    atom_concat(Pack, '/prolog/ev3dev/private/fenced.pl', Begins),
     current_prolog_flag(version, Version),
     (   Version < 70500                 % where failing is no error
     ->  format(atom(GoalText), '(~q->true;halt(1))', [Goal])
@@ -227,7 +270,7 @@ start(Directory, [Socket, Tells], Output, Path, Goal, Cpu-Memory-Shut, Pid) :-
     ),
     (   Cpu == infinite
     ->  Limit = unlimited
-    ;   Limit is max(1, ceiling(Cpu))
+    ;   Limit is 10 + 2*ceiling(Cpu)
     ),
     (   Memory == unlimited
     ->  Kilobytes = unlimited
@@ -240,7 +283,7 @@ start(Directory, [Socket, Tells], Output, Path, Goal, Cpu-Memory-Shut, Pid) :-
     ;   Enclosure = []
     ),
     append(Enclosure,
-           [ Prolog, '-q', '-f', none, '-p', Alias, '-g', GoalText,
+           [ Prolog, '-q', '-f', file(Begins), '-p', Alias, '-g', GoalText,
              '-t', halt, '-s', file(Path) ], Command),
     process_create(
         path(sh),
@@ -249,10 +292,11 @@ start(Directory, [Socket, Tells], Output, Path, Goal, Cpu-Memory-Shut, Pid) :-
                  EV3DEV_FENCE=$4; EV3DEV_FENCED=$6
                  export EV3DEV_FENCE EV3DEV_FENCED
                  [ -z "$5" ] || { EV3DEV_TOLD=$5; export EV3DEV_TOLD; }
-                 shift 6
+                 [ -z "$7" ] || { EV3DEV_SEED=$7; export EV3DEV_SEED; }
+                 shift 7
                  exec "$@" </dev/null >"$output" 2>&1',
           sh, Limit, Kilobytes, file(Output), file(Socket), Tells,
-          file(Directory) | Command ],
+          file(Directory), Seed | Command ],
         [ process(Pid), detached(true), cwd(Own) ]).
 
 %!  can_enclose is semidet.
@@ -313,21 +357,45 @@ enclosure(Directory, Path, Walls) :-
            | Binds0 ], Walls0),
     append(Walls0, ['--chdir', Own, '--'], Walls).
 
-served(Pid, Until, Deadline, Ended) :-
-    sim_fence_serve_(Until, 0.2, State),
+%   The program is looked at as often as it is silent, else five times a
+%   second. The looks follow the clock, whatever the program does: one that
+%   asks something between two naps is seen in them.
+
+served(Pid, Until, Limits, Used0, Ended) :-
+    slice(Slice),
     get_time(Now),
+    Left is Slice - (Now - Slice*floor(Now/Slice)),
+    sim_fence_serve_(Until, Left, State),
     (   over(State, Ended)
     ->  true
     ;   process_wait(Pid, Status, [timeout(0)]),
         Status \== timeout
     ->  Ended = Status
-    ;   Now > Deadline
-    ->  Ended = limit(wall)
-    ;   State == ended
-    ->  sleep(0.005),
-        served(Pid, Until, Deadline, Ended)
-    ;   served(Pid, Until, Deadline, Ended)
+    ;   looked(State, Pid, Slice, Used0, Used),
+        (   beyond(Used, Limits, Ended0)
+        ->  Ended = Ended0
+        ;   ( State == ended -> sleep(0.005) ; true ),
+            served(Pid, Until, Limits, Used, Ended)
+        )
     ).
+
+slice(0.02).
+
+looked(waiting, Pid, Slice, Used0, Used) :-
+    !,
+    usage_age(Used0, Age),
+    (   Age < 0.2
+    ->  Used = Used0
+    ;   usage_heard(Used0, Used1),
+        usage_goes_on(Pid, Slice, fail, Used1, Used)
+    ).
+looked(_, Pid, Slice, Used0, Used) :-
+    usage_goes_on(Pid, Slice, sim_fence_silent_, Used0, Used).
+
+beyond(Used, limits(Sleep, Cpu, From), Limit) :-
+    sim_time(Now),
+    processor_time(Cpu, From, Now, Seconds),
+    usage_beyond(Used, limits(Sleep, Seconds), Limit).
 
 over(over, over).
 over(refused(Why0), refused(Why)) :-

@@ -27,13 +27,12 @@ struct Fence {
     desk: Option<Desk>,
 }
 
-/// How long a wait for a question is, before signals are handled.
-const SLICE: Duration = Duration::from_millis(20);
-
 /// What a program does.
 enum State {
-    /// Nothing for a while, or much: ask again.
+    /// It has asked much: ask again.
     Waiting,
+    /// It asks nothing now.
+    Silent,
     /// It has ended, or has closed its end.
     Ended,
     /// Its simulated time is over.
@@ -53,22 +52,29 @@ impl Fence {
         mut interrupted: impl FnMut() -> bool,
     ) -> io::Result<State> {
         let since = Instant::now();
-        while since.elapsed() < wall {
+        loop {
+            let left = wall.saturating_sub(since.elapsed());
+            if left.is_zero() {
+                return Ok(State::Waiting);
+            }
             let Some(desk) = &mut self.desk else {
                 match self.listener.accept() {
                     Ok((stream, _)) => {
                         stream.set_nonblocking(false)?;
-                        self.desk = Some(Desk::new(stream, simulation.machine().now(), SLICE)?);
+                        self.desk = Some(Desk::new(stream, simulation.machine().now())?);
                     }
                     Err(error) if error.kind() == io::ErrorKind::WouldBlock => {
                         ev3_os::sleep(Duration::from_millis(2));
+                        if since.elapsed() >= wall {
+                            return Ok(State::Silent);
+                        }
                     }
                     Err(error) => return Err(error),
                 }
                 continue;
             };
-            match desk.hear()? {
-                Next::Idle => return Ok(State::Waiting),
+            match desk.hear(left)? {
+                Next::Idle => return Ok(State::Silent),
                 Next::Gone => return Ok(State::Ended),
                 Next::Refused(why) => return Ok(State::Refused(why)),
                 Next::Asked(at) => {
@@ -87,7 +93,12 @@ impl Fence {
                 }
             }
         }
-        Ok(State::Waiting)
+    }
+
+    /// Whether there is no question now.
+    fn is_silent(&mut self) -> bool {
+        let Some(desk) = &mut self.desk else { return true };
+        matches!(desk.hear(Duration::ZERO), Ok(Next::Idle | Next::Gone))
     }
 }
 
@@ -113,8 +124,8 @@ natives! {
     }
 
     /// sim_fence_serve_(+Until, +Wall, -State): the machine answers for Wall seconds at most, but
-    /// not after Until, a number of seconds or `inf`. State is `waiting`, `ended`, `over` or
-    /// refused(Why).
+    /// not after Until, a number of seconds or `inf`. State is `waiting`, `silent` if it asks
+    /// nothing at the end of them, `ended`, `over` or refused(Why).
     semidet fn "sim_fence_serve_"(context, until, wall, state) {
         let call = Call::of(context, "sim_fenced", 3);
         let (until, wall) = (call.seconds(until)?.unwrap_or(Duration::MAX), call.time(wall)?);
@@ -127,11 +138,33 @@ natives! {
         locked(&FENCES).insert(number, fence);
         match served {
             Ok(State::Waiting) => unify_atom(state, "waiting"),
+            Ok(State::Silent) => unify_atom(state, "silent"),
             Ok(State::Interrupted) => call.or_throw(Err(Error::Interrupted)),
             Ok(State::Ended) => unify_atom(state, "ended"),
             Ok(State::Over) => unify_atom(state, "over"),
             Ok(State::Refused(why)) => state.unify(&term! {context: refused(#why)}?),
             Err(error) => no_such(&call, "program", "fenced", &error.to_string()),
+        }
+    }
+
+    /// sim_fence_silent_: there is no question of the program.
+    semidet fn "sim_fence_silent_"(_context) {
+        let mut fences = locked(&FENCES);
+        into_prolog_result(fences.get_mut(&brick_number()).is_none_or(Fence::is_silent))
+    }
+
+    /// process_usage_(+Process, -Seconds, -Rest): how much time of a processor that process and
+    /// all that descend from it have used, and how often they have left one if all of them sleep,
+    /// else `awake`. Fails if there is no such process.
+    semidet fn "process_usage_"(_context, process, seconds, rest) {
+        let process = u32::try_from(process.get::<i64>()?).unwrap_or(0);
+        let Some(usage) = ev3_os::processes::usage(process) else {
+            return Err(PrologError::Failure);
+        };
+        seconds.unify(usage.time.as_secs_f64())?;
+        match usage.rest {
+            Some(switches) => rest.unify(switches),
+            None => unify_atom(rest, "awake"),
         }
     }
 

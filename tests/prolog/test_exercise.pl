@@ -16,7 +16,7 @@
 :- use_module(library(readutil)).
 
 exercise_lines([ ":- use_module(library(ev3dev/exercise)).",
-                 "exercise(hundred, [seconds(8), seeds(1-3), cpu(1), wall(5), memory(1000)]).",
+                 "exercise(hundred, [seconds(8), seeds(1-3), cpu(1), sleep(5), memory(1000)]).",
                  "world(Seed, [bounds(0, 0, Width, 200), start(30, 30, 90)]) :-",
                  "    Width is 180+Seed.",
                  "score(4, 'drives') :- path_length(Cm), Cm > 100.",
@@ -139,13 +139,45 @@ test(what_is_forbidden, Points-Reason == 0-'Line 2: secret/1 may not be used her
 test(no_such_file, Points-Reason == 0-'It cannot be read.') :-
     with_folder(( folder(Folder), atom_concat(Folder, '/nowhere.pl', File),
                   mark_files([File], [seeds(1)], [mark(nowhere, Points, _, _, _, Reason)]) )).
-%   However busy the machine is, the wall's limit does not come first.
 test(two_runs_that_do_not_end_are_enough, Ends == [limit(cpu), limit(cpu), not_run]) :-
     cheat(does_not_end, Lines),
-    marked_by([ "exercise(three, [seconds(8), seeds(1-3), cpu(1), wall(120)]).",
+    marked_by([ "exercise(three, [seconds(8), seeds(1-3), cpu(1)]).",
                 "score(1, none) :- fail." ],
               [":- use_module(library(ev3dev))."|Lines], mark(mine, 0, _, _, Runs, _)),
     findall(End, member(run(_, _, End, _), Runs), Ends).
+test(its_random_numbers_follow_the_seed, Points == Again) :-
+    draws(Points),
+    draws(Again),
+    assertion(( Points > 0, Points < 10 )).
+
+draws(Points) :-
+    marked_by([ "exercise(random, [seeds(1-4)]).",
+                "score(partial(10), far, Share) :- path_length(Cm), Share is Cm/200." ],
+              [ ":- use_module(library(ev3dev)).",
+                "start :- set_robot(5.6, 10.6, outB, outC), D is 60+random(100), go_cm(20, D)." ],
+              mark(mine, Points, _, _, _, _)).
+
+%   Its machine is too busy for the first run, or for all.
+test(a_run_that_is_lost_is_made_again,
+     [ forall(member(Until-Points/Reason,
+                     [ 1-10/'', 9-0/'It was not judged, as the machine was too busy: mark it again.' ])),
+       Points0/Reason0 == Points/Reason ]) :-
+    tmp_file(lost, Count),
+    format(string(Happens), "happens(_) :- lost_until(~w, ~q).", [Until, Count]),
+    call_cleanup(
+        marked_by([ "exercise(lost, [seeds(1)]).", "score(10, drives) :- path_length(Cm), Cm > 5.",
+                    Happens,
+                    "lost_until(Until, File) :-",
+                    "    ( exists_file(File) -> number_in(File, N) ; N = 0 ), M is N+1,",
+                    "    setup_call_cleanup(open(File, write, S), format(S, '~w.', [M]), close(S)),",
+                    "    ( N < Until -> retractall(ev3dev_usage:most_still(_)),",
+                    "        assertz(ev3dev_usage:most_still(-1)) ; true ).",
+                    "number_in(File, N) :-",
+                    "    setup_call_cleanup(open(File, read, S), read(S, N), close(S))." ],
+                  [ ":- use_module(library(ev3dev)).",
+                    "start :- set_robot(5.6, 10.6, outB, outC), go_cm(20, 10)." ],
+                  mark(mine, Points0, _, _, _, Reason0)),
+        delete_file(Count)).
 test(the_same_with_any_number_of_jobs, Two == One) :-
     Names = [honest, says_its_marks, does_not_parse],
     marked(Names, [jobs(1)], One),
@@ -294,6 +326,8 @@ test(no_scores, true(nonvar(What))) :-
     wrong_exercise(["exercise(x, [])."], What).
 test(wrong_setting, What == [secs(3)]) :-
     wrong_exercise(["exercise(x, [secs(3)]).", "score(1, x)."], What).
+test(a_setting_of_old, What == wall(3)) :-
+    wrong_exercise(["exercise(x, [wall(3)]).", "score(1, x)."], What).
 test(wrong_points, What == score(lots, x)) :-
     wrong_exercise(["exercise(x, []).", "score(lots, x)."], What).
 test(wrong_option, error(domain_error(exercise_option, seed(1)))) :-

@@ -34,6 +34,7 @@ program(Out) :-
                     ":- use_module(library(ev3dev/sim)).",
                     ":- dynamic before/1.",
                     "drawn(N) :- random_between(1, 1000, N).",
+                    "drawn(_, N) :- random_between(1, 1000000000, N).",
                     "driven(X-Y) :- for_seconds(5, (repeat, motors_run([run(outB, 40), run(outC, 30)]), wait(1), fail)), sim_pose(X, Y, _).",
                     "again(Ns) :- sim_time(T), assertz(before(T)), flag(n, N, N+1), nb_getval_0(V), findall(M, before(M), Ms), length(Ms, L), Ns = [N, V, L].",
                     "nb_getval_0(V) :- ( nb_current(here, V) -> true ; V = none ), nb_setval(here, seen).",
@@ -77,6 +78,10 @@ test(a_score_for_each_seed_in_their_order, Seeds == [5, 3, 5, 4]) :-
     Scores = [_-A, _-B, _-A, _-C],
     sort([A, B, C], [_, _, _]),
     findall(Seed, member(Seed-_, Scores), Seeds).
+test(random_numbers_follow_the_seed_without_a_simulation, true(A =\= B)) :-
+    with_program(File, ( scores(File, drawn, [5, 6, 5], [world(none)], Scores),
+                         scores(File, drawn, [6], [world(none)], [6-B]) )),
+    Scores = [5-A, 6-B, 5-A].
 test(the_same_with_any_number_of_workers) :-
     numlist(1, 6, Seeds),
     with_program(File, ( scores(File, driven, Seeds, [workers(1), noise(true)], One),
@@ -113,7 +118,7 @@ test(a_run_that_dies_once_is_made_again, Score == ok) :-
     with_program(File, ( folder(Folder), directory_file_path(Folder, died, Died),
                            scores(File, dies_once(Died), [1], [1-Score]) )).
 test(limits_that_no_program_escapes,
-     [ forall(member(Test-Option-Score, [ waits-wall(0.3)-limit(wall),
+     [ forall(member(Test-Option-Score, [ waits-sleep(0.3)-limit(sleep),
                                           computes-cpu(0.3)-limit(cpu) ])),
        true(Scores-Left == [1-Score, 2-Score]-true) ]) :-
     with_program(File, scores(File, Test, [1, 2], [Option], Scores)),
@@ -138,7 +143,7 @@ test(what_is_wrong_with_the_call,
                        -domain_error(sim_batch_option, colour(red)),
                        sim_batch(File, drawn, [1], _, [workers(0)])
                        -type_error(positive_integer, 0),
-                       sim_batch(File, drawn, [1], _, [wall(-1)])-domain_error(seconds, -1),
+                       sim_batch(File, drawn, [1], _, [sleep(-1)])-domain_error(seconds, -1),
                        sim_batch(File, drawn, [1], _, [cpu(-1)])-domain_error(seconds, -1) ])),
        error(Formal) ]) :-
     with_program(File, Goal).
@@ -235,7 +240,7 @@ test(what_is_left_before_its_end_is_dropped) :-
     with_program(File,
         with_redis_server(Port,
           with_workers(Port, 1, _,
-            ( catch(call_soon(scores(File, waits, [1, 2], [redis(localhost:Port), wall(2)], _)),
+            ( catch(call_soon(scores(File, waits, [1, 2], [redis(localhost:Port), sleep(2)], _)),
                     over, true),
               no_run_is_left(Port) )))).
 

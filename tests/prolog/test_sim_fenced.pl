@@ -4,6 +4,8 @@
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/sim_fenced)).
+:- use_module(library(process)).
+:- use_module(library(random)).
 :- use_module(library(socket), []).
 
 has_unix_sockets :-
@@ -38,6 +40,36 @@ fenced(Lines, Ended, Text, at(Seconds, Pose), Options) :-
                            sim_time(Seconds),
                            sim_pose(X, Y, Heading),
                            Pose = [X, Y, Heading] ))).
+
+%   Loops that compute beside Goal.
+:- meta_predicate beside(+, 0).
+
+beside(Count, Goal) :-
+    length(Loops, Count),
+    setup_call_cleanup(
+        maplist(starts_loop, Loops),
+        once(Goal),
+        forall(member(Loop, Loops), ( process_kill(Loop, kill), process_wait(Loop, _) ))).
+
+starts_loop(Pid) :-
+    process_create(path(sh), ['-c', 'while :; do :; done'], [detached(true), process(Pid)]).
+
+%   What a program draws, also in two threads and beside another goal; and what it would draw
+%   here.
+drawn(Seed, Options, Text) :-
+    with_program(["main :- thread_create(shown, Id, []), thread_join(Id, true),",
+                  "    thread_create(shown, Id2, []), thread_join(Id2, true), shown,",
+                  "    ( current_predicate(engine_create/3) -> race([shown, wait(9)], _) ; shown ).",
+                  ":- use_module(library(ev3dev/events)).",
+                  "shown :- X is random(1000000), random_between(1, 1000, Y), print(X-Y), nl."],
+                 File,
+                 with_sim(room, sim_fenced(File, exit(0), [output(Text)|Options]),
+                          [clock(virtual), seed(Seed)])).
+
+draws(Text) :-
+    X is random(1000000),
+    random_between(1, 1000, Y),
+    format(string(Text), "~q~n", [X-Y]).
 
 :- begin_tests(sim_fenced, [condition(starts_itself)]).
 
@@ -89,12 +121,31 @@ test(a_simulation_of_its_own_is_another_one, Pose == [40.0, 40.0, 40.0]) :-
 test(its_time_is_over, Ended-Seconds == over-2.0) :-
     fenced(["main :- motor_run(outB, 50), repeat, wait(0.3), fail."],
            Ended, _, at(Seconds, _), [seconds(2)]).
-test(it_computes_for_ever, Ended == limit(wall)) :-
-    fenced(["main :- repeat, fail."], Ended, _, _, [wall(0.5)]).
-test(it_catches_all_and_goes_on, Ended == limit(wall)) :-
-    fenced(["main :- repeat, catch((repeat, fail), _, true), fail."], Ended, _, _, [wall(0.5)]).
-test(it_takes_too_much_of_the_processor, Ended == limit(cpu)) :-
-    fenced(["main :- repeat, fail."], Ended, _, _, [cpu(1)]).
+test(it_computes_for_ever,
+     [ forall(member(Goal, [ "repeat, fail", "repeat, catch((repeat, fail), _, true), fail",
+                             "shell('while :; do :; done')" ])),
+       Ended == limit(cpu) ]) :-
+    format(string(Main), "main :- ~w.", [Goal]),
+    fenced([Main], Ended, _, _, [cpu(1), sleep(infinite)]).
+test(it_sleeps,
+     [ forall(member(Goal, [ "sleep(1000)", "repeat, catch(sleep(0.1), _, true), fail",
+                             "repeat, us_dist_cm(in1, _), sleep(0.01), fail",
+                             "shell('sleep 1000')", "shell('kill -STOP $$')" ])),
+       Ended == limit(sleep) ]) :-
+    format(string(Main), "main :- ~w.", [Goal]),
+    fenced([Main], Ended, _, _, [sleep(0.5), cpu(infinite)]).
+%   Each of the others has a session, as some schedulers share by session.
+test(what_others_compute_is_not_its_fault, Ended == over) :-
+    beside(4, fenced(["main :- repeat, us_dist_cm(in1, D), D < 0."], Ended, _, _,
+                     [seconds(10), sleep(0.5)])).
+test(there_is_more_processor_time_while_it_drives, Ended-Seconds == over-40.0) :-
+    fenced(["main :- repeat, numlist(1, 1000, L), msort(L, _), wait(0.01), fail."], Ended, _,
+           at(Seconds, _), [seconds(40), cpu(0.2)]).
+test(a_machine_that_is_too_busy, Ended == lost) :-
+    setup_call_cleanup(
+        ( retract(ev3dev_usage:most_still(Most)), assertz(ev3dev_usage:most_still(-1)) ),
+        fenced(["main :- repeat, fail."], Ended, _, _, []),
+        ( retract(ev3dev_usage:most_still(_)), assertz(ev3dev_usage:most_still(Most)) )).
 test(it_prints_without_end, Ended-Length == limit(output)-1048576) :-
     fenced(["main :- repeat, write('so it goes'), nl, fail."], Ended, Text, _, []),
     string_length(Text, Length).
@@ -126,6 +177,21 @@ test(it_does_not_parse, true(sub_string(Text, _, _, _, "Syntax error"))) :-
     fenced(["main :- a b."], _, Text, _, []).
 test(it_is_called_by_another_goal, Text == "[a,'B']\n") :-
     fenced(["shows(X) :- print(X), nl."], exit(0), Text, _, [goal(shows([a, 'B']))]).
+test(its_random_numbers_follow_the_seed, Again == One) :-
+    drawn(4, [], One),
+    drawn(4, [salt('')], Again).
+test(with_another_seed_or_salt_they_are_others) :-
+    drawn(4, [], One),
+    drawn(5, [], Other),
+    drawn(4, [salt(secret)], Salted),
+    atomic_list_concat([One, Other, Salted], Lines),
+    split_string(Lines, "\n", "", Draws),
+    sort(Draws, Different),
+    length(Different, 13).              % with the empty one at the end
+test(they_are_not_those_of_its_world) :-
+    drawn(4, [], There),
+    with_sim(room, draws(Here), [clock(virtual), seed(4)]),
+    \+ sub_string(There, _, _, _, Here).
 test(its_processes_have_no_robot, Text == "none none\n") :-
     fenced(["main :- shell('echo ${EV3DEV_FENCE-none} ${EV3DEV_TOLD-none}')."], exit(0), Text, _,
            [told(_)]).
@@ -162,7 +228,7 @@ speaks(Questions, Ended) :-
                "           ( forall(member(B, Bytes), put_byte(Out, B)), flush_output(Out),",
                "             forall(between(1, 16, _), get_byte(In, _)) )),",
                "    sleep(10)."], File,
-              in_room(sim_fenced(File, Ended, [wall(5)]))).
+              in_room(sim_fenced(File, Ended))).
 
 %   Kind, whether it is free, and time in nanoseconds.
 question([Kind, Free, Time], Bytes) :-

@@ -9,6 +9,7 @@ pub mod linux;
 pub mod mailbox;
 #[cfg(not(unix))]
 pub mod page;
+pub mod processes;
 
 #[cfg(not(unix))]
 pub use linux::Errno;

@@ -4,6 +4,7 @@
 //! a microsecond where the other one has something to say, and then sleeps; the caller wakes it by
 //! other means. Neither believes the other one: a letter is copied before it is read.
 
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{MemfdFlags, SealFlags, fcntl_add_seals, ftruncate, memfd_create};
 use rustix::mm::{MapFlags, ProtFlags, mmap, munmap};
 use rustix::net::{
@@ -17,6 +18,7 @@ use std::os::unix::net::UnixStream;
 use std::ptr::NonNull;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
+use std::time::{Duration, Instant};
 
 /// The words before a letter: whose it is, who sleeps, and its length in bytes.
 const HEAD: usize = 16;
@@ -31,6 +33,12 @@ const BYTES: usize = 4 * (HEAD + ROOM);
 
 /// How often who waits looks again before it sleeps: a tenth of a millisecond or two.
 const LOOKS: u32 = 100;
+
+/// Who has given the processor away for so long, and finds nothing then, has given it to others
+/// than the other side: it sleeps, as the kernel lets a sleeper go on sooner. So does it the next
+/// times.
+const GONE: Duration = Duration::from_micros(50);
+const SHY: u32 = 100;
 
 /// Who writes: the numbers of the words that say so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,12 +69,27 @@ impl Side {
 pub struct Mailbox {
     file: OwnedFd,
     words: NonNull<AtomicU32>,
+    /// How often this side does not give the processor away any more.
+    shy: AtomicU32,
 }
 
 // Safety: all access is by atomic words.
 unsafe impl Send for Mailbox {}
 // Safety: the same.
 unsafe impl Sync for Mailbox {}
+
+/// Waits until there is something to read, for so long at the most; whether there is.
+///
+/// # Errors
+/// The system's.
+pub fn readable(stream: &UnixStream, within: Duration) -> io::Result<bool> {
+    let within = Timespec { tv_sec: within.as_secs() as _, tv_nsec: within.subsec_nanos() as _ };
+    match poll(&mut [PollFd::new(stream, PollFlags::IN)], Some(&within)) {
+        Ok(count) => Ok(count > 0),
+        Err(rustix::io::Errno::INTR) => Ok(false),
+        Err(error) => Err(error.into()),
+    }
+}
 
 impl Mailbox {
     /// An empty one, whose size nobody can change.
@@ -87,7 +110,7 @@ impl Mailbox {
             mmap(std::ptr::null_mut(), BYTES, access, MapFlags::SHARED, &file, 0)?
         };
         let words = NonNull::new(words.cast()).ok_or(io::ErrorKind::OutOfMemory)?;
-        Ok(Mailbox { file, words })
+        Ok(Mailbox { file, words, shy: AtomicU32::new(0) })
     }
 
     /// Sends some bytes, and with them this mailbox.
@@ -165,11 +188,18 @@ impl Mailbox {
     /// from now on, as the other one will be told.
     #[must_use]
     pub fn wait(&self, to: Side) -> bool {
-        for _ in 0..LOOKS {
+        let shy = self.shy.load(Ordering::Relaxed);
+        self.shy.store(shy.saturating_sub(1), Ordering::Relaxed);
+        for _ in 0..if shy == 0 { LOOKS } else { 0 } {
             if self.has_come(to) {
                 return true;
             }
+            let since = Instant::now();
             thread::yield_now();
+            if since.elapsed() > GONE && !self.has_come(to) {
+                self.shy.store(SHY, Ordering::Relaxed);
+                break;
+            }
         }
         let sleeps = self.word(SLEEPS + to as usize);
         sleeps.store(1, Ordering::SeqCst);

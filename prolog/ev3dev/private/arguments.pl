@@ -10,6 +10,7 @@
             angle_value/2,              % +Angle, -Degrees
             number_option/4,            % ?Option, +Domain, +Options, +Default
             limit_option/2,             % ?Option, +Options
+            limit_option/3,             % ?Option, +Options, +Default
             timeout_option/2,           % +Options, -Seconds
             must_be_within/4,           % +Lowest, +Highest, +Domain, +Integer
             word/2,                     % +Text, -Atom
@@ -226,14 +227,19 @@ number_option(Option, Domain, Options, Default) :-
     number_value(Domain, Expression, Number).
 
 %!  limit_option(?Option, +Options) is det.
+%!  limit_option(?Option, +Options, +Default) is det.
 %
 %   True if Option, Name(Seconds), is in Options with an expression of that
-%   value, or `infinite`; where there is none, Seconds is `infinite`.
+%   value, or `infinite`; where there is none, Seconds is Default, or
+%   `infinite`.
 
 limit_option(Option, Options) :-
+    limit_option(Option, Options, infinite).
+
+limit_option(Option, Options, Default) :-
     functor(Option, Name, 1),
     functor(Given, Name, 1),
-    option(Given, Options, infinite),
+    option(Given, Options, Default),
     arg(1, Given, Expression),
     arg(1, Option, Seconds),
     (   Expression == infinite

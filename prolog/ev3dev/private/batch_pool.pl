@@ -5,13 +5,15 @@
             batch_step/3                % +Limits, +State0, -State
           ]).
 :- use_module(errors, [throw_error/3]).
+:- use_module(usage,
+              [ usage_begins/1, usage_beyond/3, usage_goes_on/5 ]).
 :- use_module(library(apply), [foldl/4, maplist/2]).
-:- use_module(library(lists), [last/2, member/2, nth1/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(process),
               [ process_create/3, process_group_kill/2, process_kill/2,
                 process_wait/2 ]).
 :- use_module(library(readutil),
-              [read_file_to_string/3, read_line_to_string/2]).
+              [read_line_to_string/2]).
 
 /** <module> Processes that run a program with many seeds
 
@@ -114,105 +116,87 @@ hear(worker(_, _, Out), Answer) :-
 %!  batch_step(+Limits, +State0, -State) is det.
 %
 %   Give work to the idle workers, and hear the others, which takes at most a
-%   fifth of a second. Limits is limits(Wall, Cpu), in seconds.
+%   fifth of a second. Limits is limits(Sleep, Cpu), in seconds.
 %
 %   @error system_error(Message) if all workers have died
 
 batch_step(Limits, now(Todos0, Idle0, Busy0, Done0), Now) :-
-    given(Todos0, Idle0, Busy0, Limits, Todos, Idle, Busy),
+    given(Todos0, Idle0, Busy0, Todos, Idle, Busy),
     (   Busy == [],
         Todos \== []
     ->  has_died
     ;   findall(Out, member(busy(worker(_, _, Out), _, _, _, _), Busy),
                 Outs),
         ready_soon(Outs, Ready),
-        Limits = limits(_, Cpu),
-        foldl(progress(Ready, Cpu), Busy, now(Todos, Idle, [], Done0), Now)
+        foldl(progress(Ready, Limits), Busy, now(Todos, Idle, [], Done0), Now)
     ).
 
 %   9.2.9 crashes some time after wait_for_input/3 was left by Ctrl-C or a
 %   signal, so it does not wait. By 0 it would wait for ever in 7.2.3.
 
+look_every(0.2).
+
 ready_soon(Outs, Ready) :-
+    look_every(Slice),
     between(1, 20, Look),
     wait_for_input(Outs, Ready, 0.000001),
     (   Ready == [],
         Look < 20
-    ->  sleep(0.01),
+    ->  Seconds is Slice/20,
+        sleep(Seconds),
         fail
     ;   true
     ),
     !.
 
-given([Todo|Todos0], [Worker|Idle0], Busy0, Limits, Todos, Idle, Busy) :-
+given([Todo|Todos0], [Worker|Idle0], Busy0, Todos, Idle, Busy) :-
     !,
     Todo = todo(_, Seed, _),
     catch(tell(Worker, Seed), error(_, _), true),       % a dead one is heard
-    Limits = limits(Wall, _),
-    in_seconds(Wall, Deadline),
-    given(Todos0, Idle0, [busy(Worker, Todo, none, none, Deadline)|Busy0],
-          Limits, Todos, Idle, Busy).
-given(Todos, Idle, Busy, _, Todos, Idle, Busy).
+    usage_begins(Used),
+    given(Todos0, Idle0, [busy(Worker, Todo, none, none, Used)|Busy0],
+          Todos, Idle, Busy).
+given(Todos, Idle, Busy, Todos, Idle, Busy).
 
-in_seconds(Seconds, Time) :-
-    get_time(Now),
-    Time is Now+Seconds.
+%   busy(Worker, Todo, Process, Score, Used): Process is that of the run and
+%   Score score(Score), also when the run was ended here. As long as it is
+%   not known: `none`. Used is as in library(ev3dev/private/usage).
 
-%   busy(Worker, Todo, Process, Score, Deadline): Process is that of the run
-%   and Score score(Score), also when the run was ended here. As long as it is
-%   not known: `none`.
-
-progress(Ready, Cpu, Busy, Now0, Now) :-
-    Busy = busy(Worker, Todo, Process, Score, Deadline),
+progress(Ready, Limits, Busy, Now0, Now) :-
+    Busy = busy(Worker, Todo, Process, Score, Used0),
     Worker = worker(_, _, Out),
     (   memberchk(Out, Ready)
     ->  hear(Worker, Answer),
         heard(Answer, Busy, Now0, Now)
-    ;   integer(Process),
-        beyond(Process, Deadline, Cpu, Limit)
-    ->  process_kill(Process, kill),
-        (   Score == none
-        ->  Ended = score(limit(Limit))
-        ;   Ended = Score
+    ;   integer(Process)
+    ->  look_every(Slice),
+        usage_goes_on(Process, Slice, true, Used0, Used),
+        (   has_to_end(Score, Used, Limits, Ended)
+        ->  process_kill(Process, kill),
+            Busy1 = busy(Worker, Todo, none, Ended, Used)
+        ;   Busy1 = busy(Worker, Todo, Process, Score, Used)
         ),
-        still(busy(Worker, Todo, none, Ended, Deadline), Now0, Now)
+        still(Busy1, Now0, Now)
     ;   still(Busy, Now0, Now)
     ).
 
-beyond(_, Deadline, _, wall) :-
-    get_time(Now),
-    Now > Deadline,
-    !.
-beyond(Process, _, Cpu, cpu) :-
-    Cpu \== infinite,
-    process_cpu(Process, Used),
-    Used > Cpu.
+%   A process that has a score may hang when it halts. One that is lost is
+%   made again, as if it had died.
 
-%   The time of a processor that it has used: proc_pid_stat(5), in hundredths
-%   of a second. The second field is in parentheses, and may have spaces.
-
-process_cpu(Process, Seconds) :-
-    atomic_list_concat(['/proc/', Process, '/stat'], File),
-    catch(read_file_to_string(File, Text, []), error(_, _), fail),
-    split_string(Text, ")", " ", Parts),
-    last(Parts, Fields),
-    split_string(Fields, " ", "", List),
-    nth1(12, List, User),
-    nth1(13, List, System),
-    number_string(UserTicks, User),
-    number_string(SystemTicks, System),
-    Seconds is (UserTicks+SystemTicks)/100.
+has_to_end(score(Score), Used, limits(_, Cpu), score(Score)) :-
+    usage_beyond(Used, limits(2, Cpu), _).
+has_to_end(none, Used, Limits, Ended) :-
+    usage_beyond(Used, Limits, Limit),
+    ( Limit == lost -> Ended = none ; Ended = score(Limit) ).
 
 still(Busy, now(Todos, Idle, Busys, Done),
       now(Todos, Idle, [Busy|Busys], Done)).
 
-%   A process that has a score may hang when it halts.
-
-heard(process(Process), busy(Worker, Todo, _, Score, Deadline), Now0, Now) :-
-    still(busy(Worker, Todo, Process, Score, Deadline), Now0, Now).
+heard(process(Process), busy(Worker, Todo, _, Score, Used), Now0, Now) :-
+    still(busy(Worker, Todo, Process, Score, Used), Now0, Now).
 heard(score(Score), busy(Worker, Todo, Process, _, _), Now0, Now) :-
-    in_seconds(2, Deadline),
-    still(busy(Worker, Todo, Process, score(Score), Deadline), Now0, Now).
+    usage_begins(Used),
+    still(busy(Worker, Todo, Process, score(Score), Used), Now0, Now).
 heard(over(Status), busy(Worker, Todo, _, Score, _),
       now(Todos, Idle0, Busys, Done), now(Todos1, Idle, Busys, Done1)) :-
     Todo = todo(Number, Seed, Tries),

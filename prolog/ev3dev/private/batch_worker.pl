@@ -8,6 +8,7 @@
    asserta(user:file_search_path(library, Library)).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/private/chance), [begin_chance/1]).
 :- use_module(library(ev3dev/private/descriptors), [dropped/1, taken/3]).
 :- use_module(library(unix), [fork/1, wait/2]).
 
@@ -100,6 +101,7 @@ score(Seed, Test, start(World, Options), Score) :-
 
 in_world(none, Seed, Test, Found, _) :-
     !,
+    begin_chance(Seed),
     call(Test, Seed, Found).
 in_world(World, Seed, Test, Found, Options) :-
     with_sim(World, call(Test, Found), [seed(Seed)|Options]).

@@ -131,6 +131,7 @@
             journal_new_/1,
             limit_call_/2,
             limit_insist_/4,
+            process_usage_/3,
             sim_active_/0,
             sim_add_/2,
             sim_check_/2,
@@ -143,6 +144,7 @@
             sim_fence_join_/1,
             sim_fence_open_/1,
             sim_fence_serve_/3,
+            sim_fence_silent_/0,
             sim_jam_/2,
             sim_mount_/2,
             sim_place_/3,
@@ -492,10 +494,12 @@ missing.
 %
 %   `src/sim/limit.rs`
 
+%!  process_usage_(+Process, -Seconds, -Rest) is semidet.
 %!  sim_fence_close_ is det.
 %!  sim_fence_join_(+Path) is det.
 %!  sim_fence_open_(+Path) is semidet.
 %!  sim_fence_serve_(+Until, +Wall, -State) is semidet.
+%!  sim_fence_silent_ is semidet.
 %
 %   `src/sim/fence.rs`
 

@@ -5,6 +5,7 @@
 
 use crate::lock::locked;
 use ev3_os::process_id;
+use ev3_os::processes::state_and_switches;
 use std::cell::{Cell, RefCell};
 use std::fs::{self, File};
 use std::io;
@@ -169,15 +170,12 @@ fn switches(status: &File) -> io::Result<Option<u64>> {
     let mut buffer = [0; 4096];
     let length = read(status, &mut buffer)?;
     let text = std::str::from_utf8(&buffer[..length]).unwrap_or_default();
-    let value = |name| text.lines().find_map(|line| line.strip_prefix(name)).map(str::trim);
-    let count = |name| value(name).and_then(|count| count.parse::<u64>().ok()).unwrap_or(0);
-    Ok(match value("State:").and_then(|state| state.bytes().next()) {
+    let (state, switches) = state_and_switches(text);
+    Ok(match state {
         // One that is about to fall asleep is said to be asleep, and may lose its processor just
         // then, before that sleep counts.
-        Some(b'S') => {
-            Some(count("voluntary_ctxt_switches:") + count("nonvoluntary_ctxt_switches:"))
-        }
-        Some(b'X' | b'Z') => Some(u64::MAX),
+        b'S' => Some(switches),
+        b'X' | b'Z' => Some(u64::MAX),
         // It can run, waits for a disk or its memory, or was halted by a debugger.
         _ => None,
     })

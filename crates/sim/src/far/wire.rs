@@ -18,7 +18,7 @@ use std::time::Duration;
 use super::{Answer, Far, Host, Kind, Question, nanos};
 use crate::lock::locked;
 use crate::machine::Machine;
-use ev3_os::mailbox::{Mailbox, Side};
+use ev3_os::mailbox::{Mailbox, Side, readable};
 
 const HELLO: &[u8; 8] = b"ev3far1\n";
 
@@ -34,8 +34,9 @@ const WAKE: [u8; HEAD] = {
     wake
 };
 
-/// How long a program has to make room for an answer, which it waits for.
-const PATIENCE: Duration = Duration::from_secs(1);
+/// How long a program has to make room for an answer, which it waits for: longer than a busy
+/// machine lets it stand.
+const PATIENCE: Duration = Duration::from_secs(if cfg!(test) { 1 } else { 60 });
 
 /// The error of a line that is lost: EIO.
 const LOST: i32 = 5;
@@ -164,11 +165,11 @@ pub struct Desk {
 }
 
 impl Desk {
-    /// Greets a program that has connected, at this time. [`Desk::hear`] waits `within`.
+    /// Greets a program that has connected, at this time.
     ///
     /// # Errors
     /// The system's.
-    pub fn new(mut stream: UnixStream, now: Duration, within: Duration) -> io::Result<Desk> {
+    pub fn new(mut stream: UnixStream, now: Duration) -> io::Result<Desk> {
         let mut hello = HELLO.to_vec();
         hello.extend(nanos(now).to_le_bytes());
         // An old kernel has no files in memory.
@@ -177,18 +178,17 @@ impl Desk {
             Some(mailbox) => mailbox.send(&stream, &hello)?,
             None => stream.write_all(&hello)?,
         }
-        stream.set_read_timeout(Some(within))?;
         stream.set_write_timeout(Some(PATIENCE))?;
         let (host, received) = (Host::default(), Vec::new());
         let [by_mail, is_admitted, is_lost] = [false; 3];
         Ok(Desk { stream, mailbox, host, received, by_mail, is_admitted, is_lost })
     }
 
-    /// The next question, or the one that was not answered yet.
+    /// The next question, or the one that was not answered yet. Waits so long for it.
     ///
     /// # Errors
     /// The system's.
-    pub fn hear(&mut self) -> io::Result<Next> {
+    pub fn hear(&mut self, within: Duration) -> io::Result<Next> {
         let mut buffer = [0; 4096];
         if self.is_lost {
             return Ok(Next::Gone);
@@ -215,6 +215,9 @@ impl Desk {
                     continue;
                 }
             }
+            if !readable(&self.stream, within)? {
+                return Ok(Next::Idle);
+            }
             match self.stream.read(&mut buffer) {
                 Ok(0) => return Ok(Next::Gone),
                 Ok(count) => {
@@ -224,7 +227,6 @@ impl Desk {
                     }
                 }
                 Err(error) => match error.kind() {
-                    ErrorKind::WouldBlock | ErrorKind::TimedOut => return Ok(Next::Idle),
                     ErrorKind::Interrupted => {}
                     ErrorKind::ConnectionReset => return Ok(Next::Gone),
                     _ => return Err(error),
@@ -281,18 +283,19 @@ mod tests {
     use super::*;
     use std::thread;
 
+    const SOON: Duration = Duration::from_millis(1);
     const WITHIN: Duration = Duration::from_secs(300);
 
     /// A desk at whose other end these bytes were written.
     fn desk(bytes: &[u8]) -> Desk {
         let (mut program, host) = UnixStream::pair().unwrap();
-        let desk = Desk::new(host, Duration::ZERO, WITHIN).unwrap();
+        let desk = Desk::new(host, Duration::ZERO).unwrap();
         program.write_all(bytes).unwrap();
         desk
     }
 
     fn next(bytes: &[u8]) -> Next {
-        desk(bytes).hear().unwrap()
+        desk(bytes).hear(WITHIN).unwrap()
     }
 
     #[test]
@@ -311,21 +314,21 @@ mod tests {
     fn half_a_question_and_then_the_end() {
         assert_eq!(next(&[0; HEAD - 1]), Next::Gone);
         let (mut program, host) = UnixStream::pair().unwrap();
-        let mut desk = Desk::new(host, Duration::ZERO, Duration::from_millis(1)).unwrap();
+        let mut desk = Desk::new(host, Duration::ZERO).unwrap();
         program.write_all(&[0; HEAD - 1]).unwrap();
-        assert_eq!(desk.hear().unwrap(), Next::Idle);
+        assert_eq!(desk.hear(SOON).unwrap(), Next::Idle);
         program.write_all(&[0]).unwrap();
-        assert_eq!(desk.hear().unwrap(), Next::Asked(Duration::ZERO));
+        assert_eq!(desk.hear(WITHIN).unwrap(), Next::Asked(Duration::ZERO));
     }
 
     #[test]
     fn one_that_never_reads_is_gone() {
         let (mut program, host) = UnixStream::pair().unwrap();
-        let mut desk = Desk::new(host, Duration::ZERO, Duration::from_millis(1)).unwrap();
+        let mut desk = Desk::new(host, Duration::ZERO).unwrap();
         let mut machine = Machine::bare().unwrap();
         let asks = thread::spawn(move || while program.write_all(&[0; HEAD]).is_ok() {});
         let mut answered = 0;
-        while desk.hear().unwrap() != Next::Gone {
+        while desk.hear(WITHIN).unwrap() != Next::Gone {
             desk.answer(&mut machine);
             answered += 1;
         }

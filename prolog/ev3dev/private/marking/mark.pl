@@ -144,13 +144,14 @@ marked_files(Exercise, Read, Files, Seeds, Options, Marked) :-
             ( member(program(Number, _, _, _, ''), Programs),
               member(Seed, FirstSeeds) ),
             Jobs1),
-    results(Jobs1, Exercise, Programs, Enclosed, Options, Results1),
+    Batch = batch(Exercise, Read, Programs, Enclosed, Options),
+    results(Jobs1, Batch, Results1),
     findall(Number-Seed,
             ( member(program(Number, _, _, _, ''), Programs),
               \+ hopeless(Number, FirstSeeds, Results1),
               member(Seed, Others) ),
             Jobs2),
-    results(Jobs2, Exercise, Programs, Enclosed, Options, Results2),
+    results(Jobs2, Batch, Results2),
     append(Results1, Results2, Results),
     findall(One,
             ( member(Program, Programs),
@@ -222,9 +223,46 @@ program_name(Base, Name) :-
     ;   Name = Base
     ).
 
-results([], _, _, _, _, []) :-
+%   A run that says nothing, as the machine was too busy, is made again. Where
+%   many are lost, more would be.
+
+most_lost(10).
+
+results(Jobs, Batch, Results) :-
+    results(2, Jobs, Batch, Results).
+
+results(Again0, Jobs, Batch, Results) :-
+    batch_results(Jobs, Batch, Results0),
+    findall(Program-Seed,
+            member(job(Program, Seed, result(lost, _, _, _, _, _, _)),
+                   Results0),
+            Lost),
+    length(Lost, Count),
+    most_lost(Most),
+    (   Count > 0,
+        Count =< Most,
+        Again0 > 0
+    ->  Again is Again0-1,
+        results(Again, Lost, Batch, Results1),
+        findall(job(Program, Seed, Result),
+                ( member(job(Program, Seed, Result0), Results0),
+                  (   memberchk(job(Program, Seed, Result1), Results1)
+                  ->  Result = Result1
+                  ;   Result = Result0
+                  ) ),
+                Results)
+    ;   Results = Results0
+    ).
+
+batch_results([], _, []) :-
     !.
-results(Jobs, Exercise, Programs, Enclosed, Options, Results) :-
+batch_results(Jobs, batch(Exercise, Read, Programs, Enclosed, Options),
+              Results) :-
+    exercise_setting(Read, cpu(Cpu), 10),
+    exercise_setting(Read, seconds(Seconds), 60),
+    exercise_setting(Read, sleep(Sleep), 30),
+    MostCpu is 2*(Cpu+Seconds) + 600,
+    MostSleep is Sleep + 600,
     tmp_file(ev3dev_marks, Base),
     atom_concat(Base, '.pl', File),
     findall(Option,
@@ -239,7 +277,8 @@ results(Jobs, Exercise, Programs, Enclosed, Options, Results) :-
     setup_call_cleanup(
         write_batch(File, Jobs, Exercise, Programs, Enclosed),
         sim_batch(File, marked, Numbers, Scores,
-                  [ world(none), wall(600), progress(false)
+                  [ world(none), sleep(MostSleep), cpu(MostCpu),
+                    progress(false)
                   | BatchOptions ]),
         delete_file(File)),
     findall(job(Program, Seed, Result),

@@ -41,6 +41,9 @@ read_exercise(File, exercise(Module, Name, Options, Scores)) :-
     ;   wrong(File, 'there must be one fact exercise(Name, Options)')
     ),
     (   is_list(Options),
+        member(wall(Seconds), Options)
+    ->  wrong(wall(Seconds), 'this limit is called sleep(Seconds) now')
+    ;   is_list(Options),
         \+ ( member(Option, Options), \+ good(Option) )
     ->  true
     ;   wrong(Options, 'an option is unknown, or its value makes no sense')
@@ -67,7 +70,7 @@ good(open(Seeds)) :- seed_list(Seeds, _).
 good(robot(Robot)) :- nonvar(Robot).
 good(noise(Boolean)) :- memberchk(Boolean, [true, false]).
 good(cpu(N)) :- number(N), N > 0.
-good(wall(N)) :- number(N), N > 0.
+good(sleep(N)) :- number(N), N > 0.
 good(memory(N)) :- integer(N), N > 0.
 good(solution(File)) :- atomic(File).
 

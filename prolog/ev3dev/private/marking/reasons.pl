@@ -12,7 +12,8 @@ What a program prints may be forged; it makes this sentence, and no mark.
 %!  reason(+Ended, +Output, +File, +Limits, +Seconds, -Reason) is det.
 %
 %   Reason is '' if nothing is wrong with a program that ended so, as of
-%   sim_fenced/3, at Seconds of the robot's time. Limits is limits(Cpu, Wall).
+%   sim_fenced/3, at Seconds of the robot's time. Limits is
+%   limits(Cpu, Sleep).
 
 reason(over, Output, File, _, _, Reason) :-
     load_error(Output, File, Reason),
@@ -34,15 +35,18 @@ reason(killed(Signal), _, _, _, Seconds, Reason) :-
     format(atom(Reason), 'It crashed at ~1f s, by the signal ~w.',
            [Seconds, Signal]).
 reason(limit(cpu), _, _, limits(Cpu, _), Seconds, Reason) :-
+    Used is Cpu + Seconds,
     format(atom(Reason),
-           'Does not end: ~w s of processor time, at ~1f s of the robot''s.',
-           [Cpu, Seconds]).
-reason(limit(wall), _, _, limits(_, Wall), Seconds, Reason) :-
+           'Does not end: ~0f s of processor time, at ~1f s of the robot''s.',
+           [Used, Seconds]).
+reason(limit(sleep), _, _, limits(_, Sleep), Seconds, Reason) :-
     format(atom(Reason),
-           'Does not end: it waited for ~w s, at ~1f s of the robot''s \c
+           'Does not end: it slept for ~w s, at ~1f s of the robot''s \c
             time. Only wait/1 and what uses the robot lets that pass, \c
             not sleep/1.',
-           [Wall, Seconds]).
+           [Sleep, Seconds]).
+reason(lost, _, _, _, _,
+       'It was not judged, as the machine was too busy: mark it again.').
 reason(limit(output), _, _, _, Seconds, Reason) :-
     format(atom(Reason), 'It printed more than 1 MB, until ~1f s.',
            [Seconds]).

@@ -154,9 +154,10 @@ end_words(exit(Status), Words) :-
 end_words(killed(Signal), Words) :-
     format(atom(Words), 'crashed (signal ~w)', [Signal]).
 end_words(limit(cpu), 'too much processor time').
-end_words(limit(wall), 'took too long').
+end_words(limit(sleep), 'slept too long').
 end_words(limit(output), 'printed too much').
 end_words(refused(_), 'refused').
+end_words(lost, 'not judged').
 end_words(error(_), 'lost').
 
 %   That with the least points, of those that drove.

@@ -21,7 +21,7 @@
 /** <module> One run of one program, in a process of the marker
 */
 
-:- dynamic exercise/1.
+:- dynamic exercise/2.                  % Exercise, its text
 
 %!  marking_exercise(+File, +Text) is det.
 %
@@ -37,8 +37,8 @@ marking_exercise(File, Text) :-
         write_text(Path, utf8, Text)
     ),
     read_exercise(Path, Exercise),
-    retractall(exercise(_)),
-    assertz(exercise(Exercise)).
+    retractall(exercise(_, _)),
+    assertz(exercise(Exercise, Text)).
 
 %!  marked_run(+Name, +Text, +Seed, +Enclosed, -Result) is det.
 %
@@ -48,14 +48,14 @@ marking_exercise(File, Text) :-
 %   ran into something, or ''.
 
 marked_run(Name, Text, Seed, Enclosed, Result) :-
-    exercise(Exercise),
+    exercise(Exercise, Salt),
     exercise_world(Exercise, Seed, World),
     exercise_setting(Exercise, goal(Goal), start),
     exercise_setting(Exercise, seconds(Seconds), 60),
     exercise_setting(Exercise, noise(Noise), false),
     exercise_setting(Exercise, robot(Robot), default),
     exercise_setting(Exercise, cpu(Cpu), 10),
-    exercise_setting(Exercise, wall(Wall), 30),
+    exercise_setting(Exercise, sleep(Sleep), 30),
     exercise_setting(Exercise, memory(Memory), 2000),
     new_directory(ev3dev_mark, Directory),
     directory_file_path(Directory, Name, File),
@@ -67,14 +67,15 @@ marked_run(Name, Text, Seed, Enclosed, Result) :-
                        ev3dev_sim_fenced:sim_fenced(
                            File, Ended,
                            [ goal(Goal), seconds(Seconds), cpu(Cpu),
-                             wall(Wall), memory(Memory), enclosed(Enclosed),
-                             output(Output), told(Lines) ]),
+                             sleep(Sleep), memory(Memory),
+                             enclosed(Enclosed), output(Output),
+                             told(Lines), salt(Salt) ]),
                        Seed, World, Robot),
                    ev3dev_marking_record:record_end(Ended, Output, Lines) ),
                  [ clock(virtual), seed(Seed), noise(Noise), robot(Robot) ]),
         delete_directory_and_contents(Directory)),
     recorded(Film, Collisions, Took),
-    reason(Ended, Output, File, limits(Cpu, Wall), Took, Reason),
+    reason(Ended, Output, File, limits(Cpu, Sleep), Took, Reason),
     (   Took =:= 0
     ->  Shares = none,
         ( Reason == '' -> Reason1 = 'It did not use the robot.'
