@@ -83,7 +83,7 @@ unsafe impl Sync for Mailbox {}
 /// # Errors
 /// The system's.
 pub fn readable(stream: &UnixStream, within: Duration) -> io::Result<bool> {
-    let within = Timespec { tv_sec: within.as_secs() as _, tv_nsec: within.subsec_nanos() as _ };
+    let within = Timespec::try_from(within).map_err(io::Error::other)?;
     match poll(&mut [PollFd::new(stream, PollFlags::IN)], Some(&within)) {
         Ok(count) => Ok(count > 0),
         Err(rustix::io::Errno::INTR) => Ok(false),

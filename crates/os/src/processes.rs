@@ -74,11 +74,11 @@ fn field<T: FromStr>(stat: &str, index: usize) -> Option<T> {
 
 /// All processes with their parents.
 fn parents(text: &mut [u8]) -> Vec<(u32, u32)> {
-    let mut parent = |process: u32| {
+    let parent = |process: u32| {
         let file = Path::new(PROCESSES).join(process.to_string()).join("stat");
         Some((process, field(read(&file, text)?, 1)?))
     };
-    names(Path::new(PROCESSES)).filter_map(|process| parent(process)).collect()
+    names(Path::new(PROCESSES)).filter_map(parent).collect()
 }
 
 /// The numbers in a directory.
