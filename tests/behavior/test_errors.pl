@@ -115,7 +115,7 @@ bad(map_start([]), [_-1, [x(1)]-1]).
 bad(map_occupancy(0, 0, _), [_-1, far-2]).
 bad(explore([]), [_-1, [x(1)]-1]).
 bad(sim_fenced(nofile, _), [_-1]).
-bad(sim_fenced(nofile, _, []), [_-1, [seed(1)]-3, [wall(a)]-3, [seconds(-1)]-3, [cpu(a)]-3, [goal(1)]-3]).
+bad(sim_fenced(nofile, _, []), [_-1, [seed(1)]-3, [sleep(a)]-3, [seconds(-1)]-3, [cpu(a)]-3, [goal(1)]-3]).
 bad(random_room(1, [], _), [_-1, a-1, _-2, [size(3)]-2, [boxes(2-1)]-2, [box(1)]-2]).
 bad(random_grid(1, [], _), [_-1, a-1, [size(3)]-2, [boxes(a)]-2, [cell(0)]-2]).
 bad(random_maze(1, [], _), [_-1, a-1, [size(3)]-2, [cell(-1)]-2, [x(1)]-2]).
