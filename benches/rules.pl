@@ -44,10 +44,7 @@ rules(Count, Last, Rules) :-
 %   The motor's command has just been written.
 reacted(Changer, Distance) :-
     get_time(Time),
-    % After the last change it ends, and the rule may apply once more.
-    catch(thread_send_message(Changer, reacted(Distance, Time)),
-          error(existence_error(_, _), _),
-          true).
+    thread_send_message(Changer, reacted(Distance, Time)).
 
 %   Another thread changes what the sensor shows, at no certain time of a period.
 changes(Count, Main) :-
