@@ -11,7 +11,7 @@
 # TREES leaves out those that it does not name, as in TREES="plain simulator".
 #
 # SWIPL names another Prolog, JOBS how many run at once (default: one for each
-# processor, and two that wait). A leftover choice point or any other warning fails
+# processor, and four that wait). A leftover choice point or any other warning fails
 # the run (before SWI-Prolog 9 a failed test alone). So does a job of which a process
 # computes for LIMIT seconds, 1800 by default, or which prints nothing and computes for
 # less than half a minute in ten minutes. No limit is about how long a job takes: that depends on the rest of the
@@ -34,7 +34,7 @@ main() {
     watcher=$!
     SECONDS=0
     for job in "${jobs[@]}"; do
-        if [ $running -ge "${JOBS:-$(($(nproc) + 2))}" ]; then
+        if [ $running -ge "${JOBS:-$(($(nproc) + 4))}" ]; then
             wait -n -p ended || true
             [ "$ended" = $watcher ] || running=$((running - 1))
         fi

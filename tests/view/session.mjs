@@ -87,7 +87,7 @@ export class Session {
 
   async end() {
     this.prolog.stdin.end('halt.\n');
-    const ended = await Promise.race([this.ended.then(() => true), new Promise((resolve) => { setTimeout(resolve, GUARD, false); })]);
+    const ended = await Promise.race([this.ended.then(() => true), new Promise((resolve) => { setTimeout(resolve, GUARD, false).unref(); })]);
     if (!ended) this.prolog.kill('SIGKILL');
     await this.ended;
     sessions.delete(this);
