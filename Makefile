@@ -53,8 +53,8 @@ place:
 ifneq ($(SWIHOME)$(SWIPL_HOME_DIR),)
 check: check-install
 else
-# All tests. What each is, how long it took and what failed are said at the end. Those that wait most of
-# the time run beside those that compute.
+# All tests. At the end it says what failed, what was skipped, and what took long. Those that wait
+# most of the time run beside those that compute.
 check: export EV3DEV_TEST_PERCENT := $(or $(EV3DEV_TEST_PERCENT),20)
 # Not $(MAKE) itself, as `make -n check` would run it
 AGAIN = $(MAKE) --no-print-directory
@@ -77,8 +77,9 @@ check-install:
 	@EV3DEV_PACK=. $(SWIPL) -q -f none -g main -t 'halt(1)' tests/brick/smoke.pl </dev/null
 	@EV3DEV_PACK=. $(SWIPL) -q -f none -g main -t 'halt(1)' tests/brick/example.pl </dev/null
 
-# All tests and what takes longer, in 100 minutes: other Prologs, the page, the site, the emulated brick, more
-# random programs, and changes that tests should notice. docs/checked.md says when it last passed.
+# All tests and what takes longer, in 100 minutes: other Prologs, the page, the site, the emulated
+# brick, more random programs, and changes that tests should notice. docs/checked.md says when it
+# last passed.
 check-all: lint check
 	$(MAKE) dist
 	$(MAKE) check-torture COUNT=1000
