@@ -418,16 +418,16 @@ COUNTED = {
     "state": "state(outB,_)"}
 
 
-def instructions(root, times=40, calls=20):
+def instructions(root, times=80, calls=8):
     """Instructions a call of the five hottest predicates, in the loop of
     benches/calls.pl, and of that loop alone, by callgrind: what twice as many calls take
     more. Of each length the least of so many loops counts, as what the clock brings is in the
-    others: the listing of devices, which is made again ten times a second. The loops
-    are short, so that some end before another process has its turn. The environment is
-    always the same, as it moves what Prolog allocates."""
+    others: the listing of devices, which is made again ten times a second. So one call comes
+    before each loop, and the loops are short: some end before another process has its turn.
+    The environment is always the same, as it moves what Prolog allocates."""
     with tempfile.TemporaryDirectory() as directory:
         subprocess.run(
-            [shutil.which("valgrind"), "--tool=callgrind", "--dump-before=getenv",
+            [shutil.which("valgrind"), "--tool=callgrind", "--zero-before=unsetenv", "--dump-before=getenv",
              f"--callgrind-out-file={directory}/out", *SWIPL_PACK, "--no-threads",
              "-g", f"count({times},{calls},[{','.join(COUNTED.values())}])",
              "-t", "halt(1)", "-g", "halt", "benches/calls.pl"],
@@ -436,8 +436,8 @@ def instructions(root, times=40, calls=20):
         parts = Path(directory).glob("out.*")
         parts = sorted(parts, key=lambda part: int(part.suffix[1:]))
         totals = [int(part.read_text().split("\ntotals: ")[1].split()[0]) for part in parts]
-    # Of the end, after the last mark, and of the way from a loop to the next
-    loops = totals[-4 * times * len(COUNTED) - 1:-1][1::2]
+    # The last one is of the end
+    loops = totals[-2 * times * len(COUNTED) - 1:-1]
     least = [min(loops[first:first + times]) for first in range(0, len(loops), times)]
     return {job: (twice - once) / calls
             for job, once, twice in zip(COUNTED, least[::2], least[1::2])}

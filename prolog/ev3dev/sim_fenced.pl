@@ -181,15 +181,24 @@ in_directory(Directory, Path, Goal, Seed,
               AtMost-Memory-Shut, Pid),
         served(Pid, Until, limits(Sleep, Cpu, Now), Used, Ended0),
         ended(Pid, Directory, Shut)),
-    size_file(Output, Size),
+    printed(Output, Size, Text),
     (   Size >= 1 << 20
     ->  Ended = limit(output)
     ;   Ended = Ended0
     ),
-    read_file_to_string(Output, Text, [encoding(utf8)]),
     (   Told == none
     ->  true
     ;   what_was_told(Tells, Told)
+    ).
+
+%   A program that never had its turn has no output.
+
+printed(Output, Size, Text) :-
+    (   exists_file(Output)
+    ->  size_file(Output, Size),
+        read_file_to_string(Output, Text, [encoding(utf8)])
+    ;   Size = 0,
+        Text = ""
     ).
 
 %   The seed of the program's own numbers. It draws them in another process,

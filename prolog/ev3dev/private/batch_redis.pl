@@ -114,7 +114,7 @@ nobody_works(no_worker(Since), Redis, Wait) :-
     !,
     (   ask(Redis, keys('ev3dev:worker:*'), [_|_])
     ->  true
-    ;   print_message(warning, ev3dev(no_batch_worker))
+    ;   print_message(help, ev3dev(no_batch_worker))
     ),
     Wait = none.
 nobody_works(Wait, _, Wait).
