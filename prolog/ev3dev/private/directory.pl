@@ -41,9 +41,8 @@ readable_file(File, Extension, Path) :-
 
 write_file(File, Closure) :-
     must_be(text, File),
-    in_own_name(open(File, write, Stream, [encoding(utf8)])),
     setup_call_cleanup(
-        true,
+        in_own_name(open(File, write, Stream, [encoding(utf8)])),
         call(Closure, Stream),
         close(Stream)).
 
