@@ -3,6 +3,7 @@
             pack_file/2                 % ?Folder, -File
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(one_of, [append_lists/3, one_of/2]).
 
 /** <module> Which library has a predicate
 
@@ -51,7 +52,7 @@ add_libraries([File|Files], Others0) :-
     file_base_name(File, Base),
     file_name_extension(Library, _, Base),
     assertz(library_(Library, Offered)),
-    together(Offered, Others0, Others),
+    append_lists(Offered, Others0, Others),
     add_libraries(Files, Others).
 
 %!  pack_file(?Folder, -File) is nondet.
@@ -163,10 +164,6 @@ taken(Directives, Folder, File, Import) :-
     format(atom(Name), '~w/~w.pl', [Folder, Spec]),
     absolute_file_name(Name, File).
 
-one_of([X|_], X).
-one_of([_|Xs], X) :-
-    one_of(Xs, X).
-
 without([], _, []).
 without([X|Xs], Others, Rest) :-
     (   memberchk(X, Others)
@@ -174,7 +171,3 @@ without([X|Xs], Others, Rest) :-
     ;   Rest = [X|Rest1]
     ),
     without(Xs, Others, Rest1).
-
-together([], Xs, Xs).
-together([X|Xs], Ys, [X|Zs]) :-
-    together(Xs, Ys, Zs).
