@@ -84,8 +84,8 @@ Ended = over,
 %       of simulated time.
 %     - salt(Text)
 %       The seed of its random numbers is made of Text and the seed of the
-%       simulation. Who does not know Text cannot tell the latter by these
-%       numbers. Default is `''`.
+%       simulation. A program that does not know Text cannot find that seed
+%       from its numbers. Default is `''`.
 %     - memory(Megabytes)
 %       How much memory each of its processes may use. By default as much as
 %       it likes.

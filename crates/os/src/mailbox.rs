@@ -34,9 +34,9 @@ const BYTES: usize = 4 * (HEAD + ROOM);
 /// How often who waits looks again before it sleeps: a tenth of a millisecond or two.
 const LOOKS: u32 = 100;
 
-/// Who has given the processor away for so long, and finds nothing then, has given it to others
-/// than the other side: it sleeps, as the kernel lets a sleeper go on sooner. So does it the next
-/// times.
+/// A side that yields for longer than this, and finds no letter then, has yielded to other programs
+/// and not to the other side. It sleeps at once then, and the next [`SHY`] times, as the kernel
+/// lets a sleeper go on sooner.
 const GONE: Duration = Duration::from_micros(50);
 const SHY: u32 = 100;
 
