@@ -41,8 +41,9 @@ readable_file(File, Extension, Path) :-
 
 write_file(File, Closure) :-
     must_be(text, File),
+    in_own_name(open(File, write, Stream, [encoding(utf8)])),
     setup_call_cleanup(
-        in_own_name(open(File, write, Stream, [encoding(utf8)])),
+        true,
         call(Closure, Stream),
         close(Stream)).
 
