@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The papers that show where things are, ARCHITECTURE.md and CONTRIBUTING.md, are true.
+"""The papers that show where things are are true: ARCHITECTURE.md, CONTRIBUTING.md and the
+decisions.
 
     tools/papers.py [--self-test]
 
@@ -8,7 +9,7 @@ Of what stands in back quotes there
     a path, also the end of one (`motor/plan.rs`), is that of a file or a folder,
     the target of a `make` is one,
     a name, also one of a goal or of a path as `Device::number`, is in the code. In a step of a
-    walk, a numbered item of ARCHITECTURE.md, it is in one of the files that the step names.
+    walk, a numbered item of walks.md, it is in one of the files that the step names.
 
 What has a `<` is for the reader to fill in. Lists that repeat what files say are compared
 with these files, `compared` below.
@@ -20,7 +21,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-PAPERS = ("ARCHITECTURE.md", "CONTRIBUTING.md")
+PAPERS = ["ARCHITECTURE.md", "CONTRIBUTING.md", *sorted(
+    str(path.relative_to(ROOT)) for path in (ROOT / "docs/decisions").glob("*.md"))]
 CODE = re.compile(r"\.(?:pl|rs|js|mjs|py|sh|toml|c|h|css|html|txt)$|(?:^|/)Makefile$")
 PATH = re.compile(r"[\w.@*-]+(?:/[\w.@*-]+)*/?")
 # Not written by hand
@@ -279,7 +281,7 @@ def main():
     make = makefile(files["Makefile"])[0]
     house = House(files)
     found = [f"{paper}:{line}: there is no {what}" for paper in PAPERS
-             for line, what in wrong((ROOT / paper).read_text(), house, make, walks=paper == "ARCHITECTURE.md")]
+             for line, what in wrong((ROOT / paper).read_text(), house, make, walks=paper.endswith("walks.md"))]
     return "\n".join([*found, *differences(compared(files, papers))]) or None
 
 

@@ -81,6 +81,8 @@ named(Text, Name) :-
 linked(Target) :-
     (   paper(Paper)
     ;   member(Paper, ['ARCHITECTURE.md', 'CONTRIBUTING.md'])
+    ;   expand_file_name('docs/decisions/*.md', Decisions),
+        member(Paper, Decisions)
     ),
     read_file_to_string(Paper, Text, []),
     sub_string(Text, Start, _, _, "]("),
