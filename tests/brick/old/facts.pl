@@ -7,26 +7,26 @@
           ]).
 :- use_module(terms, [indicator/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(readutil), [read_file_to_terms/3]).
 
 /** <module> What SWI-Prolog 7.2.3 has
 
-The facts are lines of two files. Version 7.2.3 itself lists those of
-swipl-7.2.3.txt, by list.pl. Those of swipl-7.2.3-arguments.txt were taken
-from its sources by hand. A line `% ...` is a comment. The others are
+The facts are terms `old(Where, Whats).` of two files. Version 7.2.3 itself
+lists those of swipl-7.2.3.txt, by list.pl. Those of swipl-7.2.3-arguments.txt
+were taken from its sources by hand. Where and each of Whats are
 
-    system Name/Arity           a built-in predicate
-    library(Name) Name/Arity    what a library exports, or op(P,T,N)
-    function Name/Arity         a function of arithmetic
-    operator op(P,T,N)
-    flag Name                   a Prolog flag
-    option Name/Arity Option    what is in the list that is the last argument
-    property Name/Arity Term    what the last argument is
-    key Name/Arity Term         what the first argument is
-    as Name/Arity Other/Arity   the first takes what the other takes, too
-    directive Letter            what format/2 knows
-    element Name/Arity          a compound term among the lines of a message
-    hook Name/Arity             a predicate of module `prolog` that is called
+    system                Name/Arity    a built-in predicate
+    library(Name)         Name/Arity    what it exports, or op(P,T,N)
+    function              Name/Arity    a function of arithmetic
+    operator              op(P,T,N)
+    flag                  Name          a Prolog flag
+    option(Name/Arity)    Option        is in the list in the last argument
+    property(Name/Arity)  Term          can be the last argument
+    key(Name/Arity)       Term          can be the first argument
+    as(Name/Arity)        Other/Arity   the first takes what this takes, too
+    directive             Letter        format/2 knows it
+    element               Name/Arity    a compound term in a message's lines
+    hook                  Name/Arity    a predicate that `prolog` calls
 
 An Option or Term is a name, or Name(Value) if there are only some values.
 */
@@ -36,32 +36,12 @@ An Option or Term is a name, or Name(Value) if there are only some values.
 
 %!  read_list(+File) is det.
 %
-%   Read the facts of a File. Its lines `Kind Name/Arity What` become facts
-%   old(Kind(Name/Arity), What), the others old(Where, What).
+%   Read the terms of a File. Each of Whats becomes a fact old(Where, What).
 
 read_list(File) :-
-    read_file_to_string(File, Text, []),
-    split_string(Text, "\n", "", Lines),
-    forall(( member(Line, Lines), fact(Line, Fact) ), assertz(Fact)).
-
-fact(Line, old(Where, What)) :-
-    \+ sub_string(Line, 0, _, _, "%"),
-    first_word(Line, Where0, Rest),
-    (   memberchk(Where0, ["option", "property", "key", "as"])
-    ->  first_word(Rest, Of, What0),
-        term_string(Predicate, Of),
-        atom_string(Kind, Where0),
-        Where =.. [Kind, Predicate]
-    ;   term_string(Where, Where0),
-        What0 = Rest
-    ),
-    term_string(What, What0).
-
-first_word(Text, Word, Rest) :-
-    sub_string(Text, Before, _, After, " "),
-    !,
-    sub_string(Text, 0, Before, _, Word),
-    sub_string(Text, _, After, 0, Rest).
+    read_file_to_terms(File, Terms, []),
+    forall(( member(old(Where, Whats), Terms), member(What, Whats) ),
+           assertz(old(Where, What))).
 
 %!  old_export(+Library, ?Export) is nondet.
 %

@@ -9,16 +9,42 @@
 
 main :-
     set_prolog_flag(debug_on_error, false),
-    findall(Line, fact_line(Line), Lines0),
-    sort(Lines0, Lines),
+    findall(Where-What, fact(Where, What), Facts0),
+    sort(Facts0, Facts),
     format('% What SWI-Prolog 7.2.3 has: made by old/list.pl, read by '),
     format('old/facts.pl~n'),
-    forall(member(Line, Lines), format('~w~n', [Line])),
+    write_facts(Facts),
     halt.
 
-fact_line(Line) :-
-    fact(Where, What),
-    format(atom(Line), '~q ~q', [Where, What]).
+%   A term for each Where, in lines of 78 columns
+
+write_facts(Facts) :-
+    findall(Where-Texts,
+            bagof(Text, fact_text(Facts, Where, Text), Texts),
+            Terms),
+    forall(member(Term, Terms), write_term_lines(Term)).
+
+fact_text(Facts, Where, Text) :-
+    member(Where-What, Facts),
+    with_output_to(atom(Text),
+                   write_term(What, [quoted(true), priority(999)])).
+
+write_term_lines(Where-[Text|Texts]) :-
+    format(atom(Start), 'old(~q, [ ~w', [Where, Text]),
+    write(Start),
+    atom_length(Start, Column),
+    foldl(write_item, Texts, Column, _),
+    format(' ]).~n').
+
+write_item(Text, Column0, Column) :-
+    atom_length(Text, Length),
+    Column1 is Column0 + Length + 2,
+    (   Column1 < 74
+    ->  Column = Column1,
+        format(', ~w', [Text])
+    ;   Column is 4 + Length,
+        format(',~n    ~w', [Text])
+    ).
 
 fact(system, Name/Arity) :-
     predicate_property(system:Head, built_in),
