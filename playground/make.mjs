@@ -11,7 +11,7 @@ import { pack as packed } from './archive.js';
 import { folder, home, library, pack, swiplOf } from './parts.js';
 
 const [modules, to] = process.argv.slice(2);
-const esbuild = createRequire(path.resolve(modules, 'package.json'))('esbuild');
+const esbuild = createRequire(path.resolve(modules, 'package.json'))('esbuild-wasm');
 const here = (name) => path.join(home, 'playground', name);
 const { locateFile } = swiplOf(modules);
 
