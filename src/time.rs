@@ -1,7 +1,7 @@
 //! `prolog/ev3dev/time.pl`: the clock of the tree in use.
 use crate::glue::call::Call;
 use crate::glue::due::note_guards;
-use crate::glue::state::chosen_devices;
+use crate::glue::state::{chosen_devices, devices};
 use crate::glue::terms::unify_atom;
 use crate::glue::waiting::{self, Round};
 use ev3_driver::device::sleep::Sleep;
@@ -44,11 +44,15 @@ natives! {
     }
 
     /// tick_after_(+Seconds): this thread serves its events after some time, or, if that
-    /// is `infinite`, has none.
+    /// is `infinite`, has none. This is no use of a device: it chooses no tree.
     semidet fn "tick_after_"(context, seconds) {
         let call = Call::of(context, "every", 2);
         waiting::tick_at(match call.seconds(seconds)? {
-            Some(time) => Some(call.devices()?.tree().now().saturating_add(time)),
+            Some(time) => {
+                let is_chosen = chosen_devices().is_some();
+                let devices = if is_chosen { call.devices()? } else { devices() };
+                Some(devices.tree().now().saturating_add(time))
+            }
             None => None,
         });
         Ok(())

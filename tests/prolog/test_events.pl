@@ -504,6 +504,22 @@ asks(Toplevel) :-
 test(nothing_happens_on_a_virtual_clock, true(Served == [])) :-
     at_prompt(pipe, sim_start(room, [clock(virtual)]),
               quiet("tell_often, pass_time(0.2).\n", "tell(true).\n", Served)).
+% The events that are gone leave a tick, which is no use of a device.
+test(no_simulation_starts_after_sim_stop, true(Ended-Output == exit(0)-"rests\n")) :-
+    run_program(":- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/events)).
+:- use_module(library(ev3dev/sim)).
+main :-
+    sim_start(room, [clock(virtual)]),
+    every(1, true),
+    event_cancel(_),
+    sim_stop,
+    ev3dev_native:tick_after_(0.02),
+    ( sim_time(_) -> writeln(runs) ; writeln(rests) ).
+", [goal(main)], Ended, Output0),
+    split_string(Output0, "\n", "", Lines),
+    once(( member(Line, Lines), member(Line, ["runs", "rests"]) )),
+    string_concat(Line, "\n", Output).
 test(nothing_happens_while_a_program_reads, true(Served == [])) :-
     at_prompt(pipe, sim_start(room, [clock(realtime)]),
               quiet("tell_often, repeat, read(X), tell(X), X == end_of_file, !.\n", "true.\n", Served)).
