@@ -461,9 +461,23 @@ def counted_with():
     return {"swipl": said[0], "rustc": said[1], "machine": platform.machine()}
 
 
+def write_json(path, value):
+    path.write_text(as_json(value) + "\n")
+
+
+def as_json(value, indent="\n"):
+    """A line for each part; what has only numbers and texts is one line."""
+    if not isinstance(value, dict) or not any(
+            isinstance(part, dict) for part in value.values()):
+        return json.dumps(value)
+    deeper = indent + "  "
+    parts = [f"{deeper}{json.dumps(name)}: {as_json(part, deeper)}"
+             for name, part in value.items()]
+    return "{" + ",".join(parts) + indent + "}"
+
+
 def write_instructions(root):
-    INSTRUCTIONS.write_text(json.dumps(
-        {"with": counted_with(), "counts": instructions(root)}, indent=2) + "\n")
+    write_json(INSTRUCTIONS, {"with": counted_with(), "counts": instructions(root)})
 
 
 def compare_instructions(root):
@@ -663,7 +677,7 @@ def main():
     elif options.part:
         results = json.loads(RESULTS.read_text())
         results[options.part] = PARTS[options.part]()
-        RESULTS.write_text(json.dumps(results, indent=2) + "\n")
+        write_json(RESULTS, results)
     elif not options.table:
         run(options)
     results = json.loads(RESULTS.read_text())
@@ -699,7 +713,7 @@ def run(options):
         write_instructions(root)
     for tree in trees.values():
         shutil.rmtree(tree)
-    RESULTS.write_text(json.dumps(results, indent=2) + "\n")
+    write_json(RESULTS, results)
 
 
 if __name__ == "__main__":
