@@ -28,8 +28,8 @@
    ;   true
    ).
 :- use_module(library(ev3dev/sim)).
-:- use_module(library(ev3dev/private/command_line)).
-:- use_module(library(ev3dev/private/last_goal)).
+:- use_module(library(ev3dev/private/app/command_line)).
+:- use_module(library(ev3dev/private/app/last_call)).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
@@ -139,7 +139,7 @@ call_command(run, [File], Options) :-
     summary,
     report(Outcome, Goal).
 call_command(playground, Folders, Options) :-
-    use_module(library(ev3dev/private/playground), []),
+    use_module(library(ev3dev/private/app/playground_server), []),
     playground_folder(Folders, Folder),
     setting(port, Options, Port, 8034),
     setting(address, Options, Address, localhost),

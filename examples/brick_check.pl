@@ -10,7 +10,7 @@
 
 :- module(brick_check, [main/0]).
 :- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/private/library_file)).
+:- use_module(library(ev3dev/private/native/library_file)).
 :- use_module(library(lists), [member/2]).
 
 :- initialization(main, main).

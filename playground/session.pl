@@ -9,7 +9,7 @@
 :- user:use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/sim), []).
 :- use_module(library(ev3dev/time), [wait/1]).
-:- use_module('../prolog/ev3dev/private/native',
+:- use_module('../prolog/ev3dev/private/native/native',
               [ view_hear_/3, view_held_/0, view_open_/0, view_pace_/1,
                 view_say_/2, view_step_/2, view_thread_/1 ]).
 :- use_module('../prolog/ev3dev/private/view/goals', [goal_solve/4]).

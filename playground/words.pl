@@ -5,7 +5,7 @@
 
 :- use_module(library(ev3dev)).
 :- use_module(library(http/json)).
-:- use_module('../prolog/ev3dev/private/help_index').
+:- use_module('../prolog/ev3dev/private/help/help_index').
 
 words :-
     ev3dev_help_index:read_comments,

@@ -49,5 +49,5 @@ than the call asks for.
 */
 
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(ev3dev/private/compiled, []).
-:- reexport(ev3dev/private/core).
+:- use_module(ev3dev/private/load/compiled, []).
+:- reexport(ev3dev/private/load/core).

@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/bricks.pl`, `private/brick.pl`: which brick predicates are about.
+//! `prolog/ev3dev/bricks.pl`, `private/run/brick.pl`: which brick predicates are about.
 use crate::glue::call::Call;
 use crate::glue::{due, state, waiting};
 use ev3_driver::motor;

@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/private/halt.pl`: stops motors when a program ends.
+//! `prolog/ev3dev/private/run/halt.pl`: stops motors when a program ends.
 use crate::glue::call::Call;
 use crate::glue::state::{self, all_devices, on_all_bricks};
 use ev3_driver::{Registry, motor};

@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/journal.pl`, `private/causes.pl`: what was done, and why.
+//! `prolog/ev3dev/journal.pl`, `private/journal/causes.pl`: what was done, and why.
 use crate::glue::call::Call;
 use crate::glue::places::places_term;
 use crate::glue::state::chosen_devices;

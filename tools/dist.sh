@@ -8,7 +8,7 @@
 # Usage: tools/dist.sh
 #
 # There is no Makefile in it, so nothing is built on installation. The foreign
-# libraries are native/<target>/ev3dev.so; prolog/ev3dev/private/library_file.pl
+# libraries are native/<target>/ev3dev.so; prolog/ev3dev/private/native/library_file.pl
 # picks one. They are not below lib: where there is a folder lib but none in it that is
 # named by the Prolog flag `arch`, SWI-Prolog up to 9.0 does not use the pack at
 # all, and the flags of all builds there are cannot be known.

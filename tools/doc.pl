@@ -14,7 +14,7 @@
 :- assertz(ev3dev_library_file:loaded).
 
 native_does_nothing :-
-    setup_call_cleanup(open('prolog/ev3dev/private/native.pl', read, In),
+    setup_call_cleanup(open('prolog/ev3dev/private/native/native.pl', read, In),
                        read_term(In, (:- module(Module, Exports)), []),
                        close(In)),
     forall(member(Name/Arity, Exports),
@@ -39,7 +39,7 @@ native_does_nothing :-
 :- use_module(library(sgml), [load_html/3]).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/planners)).
-:- use_module(library(ev3dev/private/libraries), [pack_file/2]).
+:- use_module(library(ev3dev/private/help/libraries), [pack_file/2]).
 
 :- forall(pack_file('', File), use_module(File)).
 

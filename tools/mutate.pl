@@ -219,23 +219,25 @@ text(Text, Position, Part) :-
 %   tests(Files, Tests): of what has no test file of its name, or other tests, too.
 tests([arguments, domains, errors],       [errors, bad_input, motors, robot]).
 tests([attributes],                       [motor_settings, dc_motors, driver, ports]).
-tests([batch_pool, batch_redis, batch_worker, descriptors], [sim_batch]).
-tests([fenced],                           [sim_fenced]).
+tests([pool, machines, descriptors],           [sim_batch]).
+tests([fenced_seed, fenced_log],          [sim_fenced]).
+tests([worker],                           [worker, sim_batch]).
 tests([brick, facts, world_name],         [sim, bricks, view, planners]).
 tests([bricks],                           [bricks, worker]).
 tests([causes],                           [journal, events]).
-tests([chance, turn],                     [sim, events, grid]).
-tests([command_line, scripts, last_goal], [app, halt]).
+tests([random_seed, turn_order],          [sim, events, grid]).
+tests([command_line, scripts, last_call], [app, halt]).
 tests([compiled, units],                  [compile]).
-tests([conditions, one_of],               [sensor_wait, events, rules]).
+tests([conditions, small_lists],          [sensor_wait, events, rules]).
 tests([directory],                        [files, sim_fenced, sound, app]).
 tests([drive_moves, robot_state],         [drive, robot, plnxt, jog]).
 tests([events],                           [events, rules, journal]).
-tests([explain, uncaught],                [hints, errors, halt]).
+tests([hints, error_messages],            [hints, errors, halt]).
 tests([far, far_frames],                  [worker]).
 tests([files],                            [files, sim_fenced, sim_default, bricks]).
-tests([forgotten, forms, libraries, own_help, help_index], [help, errors]).
-tests([limits, plans],                    [sim_time, sim]).
+tests([unknown_procedures, signatures, libraries, own_help, help_index],
+      [help, errors]).
+tests([schedule, time_limits],            [sim_time, sim]).
 tests([ports],                            [ports, hints]).
 tests([prompt],                           [events]).
 tests([relaxed, ground, pddl_text, s_expressions], [pddl]).

@@ -156,9 +156,9 @@ def compared(files, papers):
         set(re.findall(r"[\w-]+(?!:)", papers["CONTRIBUTING.md"])) | set(re.findall(r" ([\w-]+)", recipes)))
     rust = {(path, *native) for path, text in files.items()
             if path.startswith("src/") and not path.startswith("src/glue/") for native in natives(text)}
-    told = set(declared(files["prolog/ev3dev/private/native.pl"]))
-    yield "natives! of src", "comments of private/native.pl", None, (told, rust)
-    yield "comments of private/native.pl", "natives! of src", {each[1:] for each in told}, {each[1:] for each in rust}
+    told = set(declared(files["prolog/ev3dev/private/native/native.pl"]))
+    yield "natives! of src", "comments of private/native/native.pl", None, (told, rust)
+    yield "comments of private/native/native.pl", "natives! of src", {each[1:] for each in told}, {each[1:] for each in rust}
     state = files["src/view/state.rs"]
     objects = state[state.index("objects! {\n"):]
     fields = set(re.findall(r"^        (?:r#)?(\w+): .*,$", objects[:objects.index("\n}\n")], flags=re.M))
@@ -186,7 +186,7 @@ def compared(files, papers):
     tests = " ".join(text for path, text in files.items() if path.startswith("tests/"))
     yield "tests", "examples", None, (stems("examples/", files), set(re.findall(r"\w+", tests)))
     everything = " ".join(papers[path] for path in papers if path.endswith(".md") and path != "CHANGELOG.md")
-    commands = set(re.findall(r"^command\((\w+),", files["prolog/ev3dev/private/command_line.pl"], flags=re.M))
+    commands = set(re.findall(r"^command\((\w+),", files["prolog/ev3dev/private/app/command_line.pl"], flags=re.M))
     yield "README.md and docs", "commands of swipl ev3dev", set(
         re.findall(r"swipl (?:ev3dev|app/ev3dev\.pl) ([a-z]+)", everything)) | set(
             re.findall(r"^\| `([a-z]+)[^`|]*` \|", papers["docs/view.md"].split("| command |")[1].split("\n\n")[0], flags=re.M)), commands
@@ -195,7 +195,7 @@ def compared(files, papers):
     yield "docs/predicates.md, reason(R)", "the reasons of crates/driver", set(
         re.findall(r"`(\w+)`", reasons[:reasons.index("instead")])), set(
         re.findall(r'Self::\w+ => "(\w+)"', files["crates/driver/src/motor/wait.rs"]))
-    tables = "".join(text for path, text in files.items() if "/private/sensor_table/" in path)
+    tables = "".join(text for path, text in files.items() if "/private/devices/sensor_table/" in path)
     yield "docs/ev3dev-sysfs.md", "sensor types", None, (
         set(re.findall(r"^type\('([\w-]+)'", tables, flags=re.M)),
         set(re.findall(r"[\w-]+", papers["docs/ev3dev-sysfs.md"])))

@@ -16,21 +16,22 @@
             stop_all_bricks/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/brick,
+:- use_module(private/load/compiled, []).
+:- use_module(private/run/brick,
               [ end_brick/1, in_brick/2, is_simulated/0, must_be_new_names/1,
                 name_brick/3, named_brick/3, new_brick/1, switch_brick/1,
                 unname_brick/1 ]).
-:- use_module(private/arguments, [must_be_options/3, timeout_option/2]).
-:- use_module(private/directory, [directory_path/2]).
-:- use_module(private/errors,
+:- use_module(private/checks/arguments,
+              [must_be_options/3, timeout_option/2]).
+:- use_module(private/files/directory, [directory_path/2]).
+:- use_module(private/errors/errors,
               [ goal_of_program/1, must_be/2, must_be_goal/1,
                 term_expansion/4, throw_error/3 ]).
-:- use_module(private/messages, [next_message/4, send_message/3]).
-:- use_module(private/native, [brick_/1, stop_all_bricks_/0]).
-:- use_module(private/one_of, [one_of/2]).
-:- use_module(private/redis, [redis_address/2]).
-:- use_module(private/world_name, [noted_world/2]).
+:- use_module(private/bricks/messages, [next_message/4, send_message/3]).
+:- use_module(private/native/native, [brick_/1, stop_all_bricks_/0]).
+:- use_module(private/basics/small_lists, [one_of/2]).
+:- use_module(private/processes/redis, [redis_address/2]).
+:- use_module(private/simulation/world_name, [noted_world/2]).
 :- use_module(files, [ev3_sysfs/1]).
 :- use_module(time, [ev3_time/1]).
 :- use_module(library(thread), [concurrent/3]).
@@ -115,7 +116,7 @@ opened(Where, _, Brick) :-
     opened(Where, Brick).
 
 opened_far(Name, Where, far(Far)) :-
-    use_module(library(ev3dev/private/far), []),
+    use_module(library(ev3dev/private/bricks/far), []),
     ev3dev_far:far_open(Name, Where, Far).
 
 opened(local, 0).
@@ -391,7 +392,7 @@ robots_join(Redis) :-
                     'other programs do not wait for this clock')
     ;   true
     ),
-    use_module(library(ev3dev/private/mail), []),
+    use_module(library(ev3dev/private/bricks/mail), []),
     ev3dev_mail:join_mail(HostPort).
 
 robots_leave :-

@@ -5,13 +5,14 @@
             button_events/1             % -Events
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/4]).
+:- use_module(private/errors/errors,
+              [domain_error/2, must_be/2, term_expansion/4]).
 :- use_module(files, []).
-:- use_module(private/arguments,
+:- use_module(private/checks/arguments,
               [must_be_options/3, timeout_option/2, word/2]).
-:- use_module(private/one_of).
-:- use_module(private/waits, [waited/1]).
-:- use_module(private/native,
+:- use_module(private/basics/small_lists).
+:- use_module(private/run/waits, [waited/1]).
+:- use_module(private/native/native,
               [ button_event_/5, button_source_/1, button_wait_/4,
                 buttons_/1 ]).
 

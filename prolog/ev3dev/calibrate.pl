@@ -2,18 +2,19 @@
           [ calibrate/3                 % +What, :Options, -SetRobot
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/4]).
+:- use_module(private/errors/errors,
+              [domain_error/2, must_be/2, term_expansion/4]).
 :- use_module(library(lists), [append/3, member/2, sum_list/2]).
-:- use_module(private/arguments,
+:- use_module(private/checks/arguments,
               [ must_be_options/3, number_option/4, number_value/2,
                 option/2, option/3, word/2
               ]).
 :- use_module(motor_settings, [motor_gear/2]).
 :- use_module(sensors, [gyro_ang/2]).
-:- use_module(private/drive_moves,
+:- use_module(private/devices/drive_moves,
               [move_straight/3, move_turn/3, speed_option/4]).
-:- use_module(private/sensor_type, [sensor_to_read/3]).
-:- use_module(private/robot_state, [robot_description/1]).
+:- use_module(private/devices/sensor_type, [sensor_to_read/3]).
+:- use_module(private/devices/robot_state, [robot_description/1]).
 :- use_module(time, [wait/1]).
 
 /** <module> Calibration: the true size of wheels and axle

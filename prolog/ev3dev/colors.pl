@@ -5,9 +5,9 @@
             col_hsv/2                   % ?Port, -HSV
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/errors, [term_expansion/4]).
-:- use_module(private/brick).
+:- use_module(private/load/compiled, []).
+:- use_module(private/errors/errors, [term_expansion/4]).
+:- use_module(private/run/brick).
 :- use_module(sensors, [col_rgb_raw/4]).
 
 /** <module> Colors

@@ -2,10 +2,10 @@
           [ ev3dev_compile/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled,
+:- use_module(private/load/compiled,
               [ contents/2, index_file/1, pack_folder/1, read_index/2,
                 source_time/2, this_prolog/1 ]).
-:- use_module(private/units, [use_sources/0]).
+:- use_module(private/load/units, [use_sources/0]).
 
 /** <module> Compile the pack where it is installed
 
@@ -37,13 +37,13 @@ the pack it is not used any more, and the command is to be given again.
 %   unit apart from what it loads: Prolog is reading its source already when
 %   it comes to know the units.
 
-unit(core, ['ev3dev/private/core']).
-unit(drive_parts, ['ev3dev/private/places', 'ev3dev/odometry',
+unit(core, ['ev3dev/private/load/core']).
+unit(drive_parts, ['ev3dev/private/checks/places', 'ev3dev/odometry',
                    'ev3dev/calibrate']).
 unit(drive, ['ev3dev/drive']).
-unit(tables, ['ev3dev/private/sensor_table/lego',
-              'ev3dev/private/sensor_table/other']).
-unit(facts, ['ev3dev/private/facts']).
+unit(tables, ['ev3dev/private/devices/sensor_table/lego',
+              'ev3dev/private/devices/sensor_table/other']).
+unit(facts, ['ev3dev/private/files/facts']).
 unit(planners_parts, ['ev3dev/private/grid/problem',
                       'ev3dev/planners/search']).
 unit(grid_parts, ['ev3dev/private/grid/moves']).
@@ -52,11 +52,12 @@ unit(comparison, ['ev3dev/planners/comparison']).
 unit(planners, ['ev3dev/planners']).
 unit(roadmap_parts, ['ev3dev/navigation']).
 unit(roadmap, ['ev3dev/roadmap']).
-unit(chance, ['ev3dev/private/chance']).
-unit(sim_parts, ['ev3dev/private/turn', 'ev3dev/private/world_name',
+unit(random_seed, ['ev3dev/private/simulation/random_seed']).
+unit(sim_parts, ['ev3dev/private/simulation/turn_order',
+                 'ev3dev/private/simulation/world_name',
                  'ev3dev/sim_time', 'ev3dev/sim_views']).
 unit(sim, ['ev3dev/sim']).
-unit(sim_batch, ['ev3dev/private/batch_pool', 'ev3dev/sim_batch']).
+unit(sim_batch, ['ev3dev/private/batch/pool', 'ev3dev/sim_batch']).
 unit(grid_belief, ['ev3dev/grid_belief']).
 unit(events, ['ev3dev/events']).
 unit(localize, ['ev3dev/localize']).
@@ -64,10 +65,10 @@ unit(map, ['ev3dev/map']).
 unit(sim_fenced, ['ev3dev/sim_fenced']).
 unit(random_worlds, ['ev3dev/random_worlds']).
 unit(exercise, ['ev3dev/exercise']).
-unit(batch_redis, ['ev3dev/private/batch_redis']).
-unit(mail, ['ev3dev/private/mail']).
+unit(batch_machines, ['ev3dev/private/batch/machines']).
+unit(mail, ['ev3dev/private/bricks/mail']).
 unit(bricks, ['ev3dev/bricks']).
-unit(far, ['ev3dev/private/far']).
+unit(far, ['ev3dev/private/bricks/far']).
 unit(worker, ['ev3dev/worker']).
 unit(console, ['ev3dev/console']).
 unit(jog, ['ev3dev/jog']).
@@ -208,7 +209,7 @@ entry_files([Entry|Entries], [File|Files]) :-
 %   The first of them loads the others. Its file is loaded here already.
 
 compile_loader(Folder, Unit) :-
-    pack_file('ev3dev/private/units', Base),
+    pack_file('ev3dev/private/load/units', Base),
     atom_concat(Base, '.pl', File),
     retractall(needed(_)),
     compile(units, [File], true, Folder, Qlf),

@@ -12,19 +12,19 @@
             dc_motor_attribute/3        % ?Port, +Attribute, ?Value
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors,
+:- use_module(private/errors/errors,
               [domain_error/2, evaluated/2, term_expansion/4]).
-:- use_module(private/explain).
+:- use_module(private/explain/hints).
 :- use_module(driver, [dc_motor/1]).
-:- use_module(private/halt, []).
+:- use_module(private/run/halt, []).
 :- use_module(motors, []).
-:- use_module(private/arguments, [motor_options/5, word/2]).
-:- use_module(private/attributes,
+:- use_module(private/checks/arguments, [motor_options/5, word/2]).
+:- use_module(private/devices/attributes,
               [ attribute/4, attribute_words/4, class_polarity/3,
                 class_settings/3
               ]).
-:- use_module(private/waits, [waited/1]).
-:- use_module(private/native,
+:- use_module(private/run/waits, [waited/1]).
+:- use_module(private/native/native,
               [ attribute_/4, dc_motor_run_/2, dc_motor_run_timed_/5,
                 motor_run_direct_/3, motor_stop_/3 ]).
 

@@ -2,14 +2,14 @@
           [ ev3_devices/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [term_expansion/4]).
+:- use_module(private/errors/errors, [term_expansion/4]).
 :- use_module(driver,
               [ decimals/2, lego_sensor/2, mode/2, position/2,
                 sensor_attribute/3, state/2, tacho_motor/2, value/3
               ]).
 :- use_module(files, [ev3_sysfs/1]).
-:- use_module(private/native, [attribute_/4, device_/3]).
-:- use_module(private/one_of).
+:- use_module(private/native/native, [attribute_/4, device_/3]).
+:- use_module(private/basics/small_lists).
 
 /** <module> A table of the connected devices
 */

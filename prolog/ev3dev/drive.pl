@@ -20,23 +20,23 @@
             drive_wait/2        % +Options, -Reason
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/errors,
+:- use_module(private/load/compiled, []).
+:- use_module(private/errors/errors,
               [evaluated/2, must_be/2, term_expansion/4]).
-:- use_module(private/arguments,
+:- use_module(private/checks/arguments,
               [ must_be_options/3, number_option/4, number_value/2,
                 number_value/3, take_options/4, timeout_option/2
               ]).
-:- use_module(private/places, [place/2, places/2]).
-:- use_module(private/drive_moves,
+:- use_module(private/checks/places, [place/2, places/2]).
+:- use_module(private/devices/drive_moves,
               [ backwards/2, move/3, move_straight/3, move_turn/3,
                 must_be_move_options/1, robot_speed/2, speed_option/4
               ]).
 :- reexport(odometry).
 :- reexport(calibrate).
-:- use_module(private/robot_state, [robot_description/1]).
-:- use_module(private/waits, [waited/1]).
-:- use_module(private/native, [drive_wait_/3]).
+:- use_module(private/devices/robot_state, [robot_description/1]).
+:- use_module(private/run/waits, [waited/1]).
+:- use_module(private/native/native, [drive_wait_/3]).
 
 /** <module> Driving: curves, odometry, going to places
 

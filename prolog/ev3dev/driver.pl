@@ -35,12 +35,12 @@
             decimals_file/2             % ?Port, -File
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [must_be/2, term_expansion/4]).
-:- use_module(private/attributes,
+:- use_module(private/errors/errors, [must_be/2, term_expansion/4]).
+:- use_module(private/devices/attributes,
               [ attribute/4, attribute_words/4, device_at/3,
                 goal_expansion/2, value_attribute/2
               ]).
-:- use_module(private/native,
+:- use_module(private/native/native,
               [attribute_/4, attribute_write_/4, device_/3, device_/4]).
 :- reexport(files).
 

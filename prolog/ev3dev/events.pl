@@ -13,25 +13,25 @@
             race/2                      % :Goals, -Winner
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/errors,
+:- use_module(private/load/compiled, []).
+:- use_module(private/errors/errors,
               [ error_within/3, goal_of_program/1, in_own_name/1, must_be/2,
                 must_be_goal/1, term_expansion/4, throw_error/3
               ]).
-:- use_module(private/arguments,
+:- use_module(private/checks/arguments,
               [must_be_options/3, number_value/3, option/3]).
-:- use_module(private/brick,
+:- use_module(private/run/brick,
               [brick/1, in_brick/2, is_apart/1, switch_brick/1]).
-:- use_module(private/chance, [branch_seed/1, seed_branch/1]).
-:- use_module(private/conditions, [condition_goal/2]).
-:- use_module(private/one_of, [one_of/2]).
-:- use_module(private/causes, [acting_for/2, begins/1]).
-:- use_module(private/prompt, [acting_at_prompt/1, reads_query/0]).
-:- use_module(private/waits,
+:- use_module(private/simulation/random_seed, [branch_seed/1, seed_branch/1]).
+:- use_module(private/devices/conditions, [condition_goal/2]).
+:- use_module(private/basics/small_lists, [one_of/2]).
+:- use_module(private/journal/causes, [acting_for/2, begins/1]).
+:- use_module(private/run/prompt, [acting_at_prompt/1, reads_query/0]).
+:- use_module(private/run/waits,
               [ in_guard/2, leave/2, let_others_go_on/0, listen_for_events/1,
                 listening/3
               ]).
-:- use_module(private/native,
+:- use_module(private/native/native,
               [ branches_begin_/0, branches_end_/0, branches_leave_/0,
                 branches_look_/2, cause_now_/1, cause_set_/1, commands_/1,
                 guards_/0, motors_stop_/2, now_/1, serve_at_prompt_/0,

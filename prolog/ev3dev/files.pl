@@ -6,10 +6,11 @@
             ev3_dev/1                   % ?Directory
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/brick, [brick/1, is_apart/1, named_brick/3]).
-:- use_module(private/errors, [term_expansion/4, throw_error/3]).
-:- use_module(private/directory, [directory_path/2, environment_directory/2]).
-:- use_module(private/native,
+:- use_module(private/run/brick, [brick/1, is_apart/1, named_brick/3]).
+:- use_module(private/errors/errors, [term_expansion/4, throw_error/3]).
+:- use_module(private/files/directory,
+              [directory_path/2, environment_directory/2]).
+:- use_module(private/native/native,
               [ dev_/1, dev_use_/1, file_read_/2, file_write_/2,
                 sim_active_/0, sim_fence_join_/1, subsystem_detect_/4,
                 sysfs_/1, sysfs_use_/1 ]).
@@ -95,7 +96,7 @@ ev3_sysfs(Directory) :-
 use_environment :-
     (   getenv('EV3DEV_FENCE', Socket)
     ->  unsetenv('EV3DEV_FENCE'),
-        use_module(library(ev3dev/private/turn), []),
+        use_module(library(ev3dev/private/simulation/turn_order), []),
         sim_fence_join_(Socket),
         use_told
     ;   environment_directory('EV3DEV_SYSFS', Directory)
@@ -106,8 +107,8 @@ use_environment :-
 use_told :-
     (   getenv('EV3DEV_TOLD', File)
     ->  unsetenv('EV3DEV_TOLD'),
-        use_module(library(ev3dev/private/told), []),
-        ev3dev_told:tell_to(File)
+        use_module(library(ev3dev/private/journal/fenced_log), []),
+        ev3dev_fenced_log:tell_to(File)
     ;   true
     ).
 

@@ -34,14 +34,14 @@
             checkOtherExog/1            % -Actions
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
+:- use_module(private/load/compiled, []).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(random), [random_permutation/2]).
-:- use_module(private/arguments,
+:- use_module(private/checks/arguments,
               [ must_be_options/3, option/2, option/3,
                 timeout_option/2
               ]).
-:- use_module(private/errors,
+:- use_module(private/errors/errors,
               [ domain_error/2, existence_error/2, must_be/2,
                 term_expansion/4
               ]).

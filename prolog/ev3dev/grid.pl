@@ -4,9 +4,10 @@
             execute_plan/1              % +Plan
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/4]).
-:- use_module(private/explain).
+:- use_module(private/load/compiled, []).
+:- use_module(private/errors/errors,
+              [domain_error/2, must_be/2, term_expansion/4]).
+:- use_module(private/explain/hints).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [meta_options/3, option/2, option/3]).
 :- use_module(private/grid/knowledge).
@@ -14,7 +15,7 @@
 :- use_module(private/grid/moves).
 :- use_module(private/grid/place).
 :- use_module(private/grid/problem).
-:- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/checks/arguments, [must_be_options/3]).
 :- use_module(planners/search).
 :- reexport(private/grid/knowledge,
             [obstructed/1, obstacle_add/1, obstacle_remove/1]).

@@ -10,14 +10,15 @@
             grid_localize/3             % +Map, -State, :Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/arguments, [must_be_options/3, number_option/4]).
-:- use_module(private/brick, [brick/1]).
-:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/4]).
+:- use_module(private/load/compiled, []).
+:- use_module(private/checks/arguments, [must_be_options/3, number_option/4]).
+:- use_module(private/run/brick, [brick/1]).
+:- use_module(private/errors/errors,
+              [domain_error/2, must_be/2, term_expansion/4]).
 :- use_module(private/grid/map).
 :- use_module(private/grid/moves, [go_to_cell/5]).
 :- use_module(private/grid/place, [grid_metric/2, set_pose_in/3]).
-:- use_module(private/shades, [write_shades/4]).
+:- use_module(private/maps/gray_squares, [write_shades/4]).
 :- use_module(drive, [go_cm/3, set_pose/3]).
 :- use_module(sensors, [us_dist_cm/2]).
 :- use_module(library(apply), [foldl/4, maplist/3]).

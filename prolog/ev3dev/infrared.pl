@@ -7,11 +7,11 @@
                                         % -Strengths
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/arguments, [must_be_within/4, word/2]).
-:- use_module(private/errors, [domain_error/2, term_expansion/4]).
+:- use_module(private/checks/arguments, [must_be_within/4, word/2]).
+:- use_module(private/errors/errors, [domain_error/2, term_expansion/4]).
 :- use_module(sensors, [ir_prox/2]).
-:- use_module(private/native, [sensor_values_/5]).
-:- use_module(private/one_of).
+:- use_module(private/native/native, [sensor_values_/5]).
+:- use_module(private/basics/small_lists).
 
 /** <module> Infrared sensors
 

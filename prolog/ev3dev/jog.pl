@@ -3,11 +3,11 @@
             jog/1                       % +Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/errors, [term_expansion/4]).
-:- use_module(private/arguments, [must_be_options/3]).
-:- use_module(private/drive_moves, [speed_option/4]).
-:- use_module(private/robot_state, [robot_set/4]).
+:- use_module(private/load/compiled, []).
+:- use_module(private/errors/errors, [term_expansion/4]).
+:- use_module(private/checks/arguments, [must_be_options/3]).
+:- use_module(private/devices/drive_moves, [speed_option/4]).
+:- use_module(private/devices/robot_state, [robot_set/4]).
 :- use_module(robot, [go/1, stop/0, turn/1]).
 
 /** <module> Driving the robot with the keyboard

@@ -6,27 +6,27 @@
             journal_replay/1            % +File
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
+:- use_module(private/load/compiled, []).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
-:- use_module(private/errors,
+:- use_module(private/errors/errors,
               [ existence_error/2, goal_of_program/1, in_own_name/1,
                 must_be/2, must_be_goal/1, term_expansion/4
               ]).
-:- use_module(private/directory, [readable_file/3, write_file/2]).
-:- use_module(private/explain, [fail_because/1]).
-:- use_module(private/arguments, [word/2]).
-:- use_module(private/causes, [acting_for/2, causes/2]).
-:- use_module(private/facts, [throw_located/3]).
-:- use_module(private/robot_state, [robot/4, robot_description/1]).
-:- use_module(private/journal_words, [why_words//3]).
+:- use_module(private/files/directory, [readable_file/3, write_file/2]).
+:- use_module(private/explain/hints, [fail_because/1]).
+:- use_module(private/checks/arguments, [word/2]).
+:- use_module(private/journal/causes, [acting_for/2, causes/2]).
+:- use_module(private/files/facts, [throw_located/3]).
+:- use_module(private/devices/robot_state, [robot/4, robot_description/1]).
+:- use_module(private/journal/journal_words, [why_words//3]).
 :- use_module(time, [wait/1]).
-:- use_module(private/native,
+:- use_module(private/native/native,
               [ attribute_/4, attribute_write_/4, device_/3, drive_/4,
                 drive_wait_/3, journal_entry_/4, led_set_color_/2,
                 led_set_delays_/3, led_set_trigger_/2, motor_stop_/3,
                 motor_wait_/3, now_/1, play_/3, say_/3, set_pose_/5,
                 sound_stop_/0, stop_all_motors_/0, tones_/3 ]).
-:- use_module(private/waits, [waited/1]).
+:- use_module(private/run/waits, [waited/1]).
 
 :- meta_predicate because(0, +).
 

@@ -6,11 +6,11 @@
             led_blink/3                 % ?Light, ?On, ?Off
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors,
+:- use_module(private/errors/errors,
               [domain_error/2, evaluated/2, term_expansion/4]).
-:- use_module(private/explain).
-:- use_module(private/arguments, [must_be_within/4, word/2]).
-:- use_module(private/native,
+:- use_module(private/explain/hints).
+:- use_module(private/checks/arguments, [must_be_within/4, word/2]).
+:- use_module(private/native/native,
               [ led_/3, led_set_color_/2, led_set_delays_/3,
                 led_set_trigger_/2 ]).
 

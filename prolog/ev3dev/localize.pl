@@ -12,18 +12,21 @@
             particles/1                 % -Particles
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/4]).
-:- use_module(private/explain).
+:- use_module(private/load/compiled, []).
+:- use_module(private/errors/errors,
+              [domain_error/2, must_be/2, term_expansion/4]).
+:- use_module(private/explain/hints).
 :- use_module(driver, []).
-:- use_module(private/arguments,
+:- use_module(private/checks/arguments,
               [ must_be_options/3, must_be_within/4, number_option/4,
                 number_value/2, number_value/3, option/2, option/3
               ]).
-:- use_module(private/brick, [brick/1]).
-:- use_module(private/roadmap_arguments, [roadmap_facts/2, sensor_option/2]).
-:- use_module(private/robot_state, [drive_default/2, robot_description/1]).
-:- use_module(private/native,
+:- use_module(private/run/brick, [brick/1]).
+:- use_module(private/maps/roadmap_arguments,
+              [roadmap_facts/2, sensor_option/2]).
+:- use_module(private/devices/robot_state,
+              [drive_default/2, robot_description/1]).
+:- use_module(private/native/native,
               [ localize_at_/3, localize_best_/5, localize_clusters_/2,
                 localize_correct_/3, localize_new_/3, localize_particles_/2,
                 localize_reset_/1, localize_step_/6, localize_sure_/4

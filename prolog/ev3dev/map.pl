@@ -11,20 +11,20 @@
             explore/1                   % +Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/errors, [must_be/2, term_expansion/4]).
-:- use_module(private/explain).
+:- use_module(private/load/compiled, []).
+:- use_module(private/errors/errors, [must_be/2, term_expansion/4]).
+:- use_module(private/explain/hints).
 :- use_module(driver, []).
-:- use_module(private/arguments,
+:- use_module(private/checks/arguments,
               [ must_be_options/3, must_be_within/4, number_option/4,
                 number_value/2, option/3
               ]).
-:- use_module(private/brick, [brick/1]).
-:- use_module(private/directory, [write_file/2]).
-:- use_module(private/one_of, [one_of/2]).
-:- use_module(private/roadmap_arguments, [sensor_option/2]).
-:- use_module(private/shades, [write_shades/4]).
-:- use_module(private/native,
+:- use_module(private/run/brick, [brick/1]).
+:- use_module(private/files/directory, [write_file/2]).
+:- use_module(private/basics/small_lists, [one_of/2]).
+:- use_module(private/maps/roadmap_arguments, [sensor_option/2]).
+:- use_module(private/maps/gray_squares, [write_shades/4]).
+:- use_module(private/native/native,
               [ map_cells_/3, map_frontier_/5, map_look_/3, map_new_/2,
                 map_occupancy_/4, map_walls_/3
               ]).

@@ -10,17 +10,17 @@
             motor_hold_pid/2            % ?Port, ?PID
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors,
+:- use_module(private/errors/errors,
               [ domain_error/2, evaluated/2, term_expansion/4
               ]).
 :- use_module(driver, [motor_attribute/3, tacho_motor/2]).
-:- use_module(private/arguments, [must_be_within/4, number_value/3]).
-:- use_module(private/attributes,
+:- use_module(private/checks/arguments, [must_be_within/4, number_value/3]).
+:- use_module(private/devices/attributes,
               [class_polarity/3, class_settings/3, device_at/3]).
-:- use_module(private/native,
+:- use_module(private/native/native,
               [ attribute_/4, motor_gear_/2, motor_position_/2,
                 motor_set_gear_/2, motor_set_position_/2, motor_speed_/2 ]).
-:- use_module(private/one_of).
+:- use_module(private/basics/small_lists).
 
 /** <module> Settings of motors
 

@@ -23,27 +23,27 @@
             motor_run_until_stalled/3   % +Port, +Speed, +Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors,
+:- use_module(private/errors/errors,
               [ domain_error/2, evaluated/2, existence_error/2, must_be/2,
                 term_expansion/4
               ]).
-:- use_module(private/explain).
+:- use_module(private/explain/hints).
 :- use_module(driver,
               [ command/2, max_speed/2, motor_attribute/3 ]).
-:- use_module(private/halt, []).
-:- use_module(private/arguments,
+:- use_module(private/run/halt, []).
+:- use_module(private/checks/arguments,
               [ motor_moves/2, motor_options/5, motor_runs/2,
                 must_be_options/3, number_option/4, option/2, option/3,
                 speed_value/2, stop_action/3, timeout_option/2, word/2
               ]).
-:- use_module(private/waits, [waited/1]).
-:- use_module(private/native,
+:- use_module(private/run/waits, [waited/1]).
+:- use_module(private/native/native,
               [ motor_reset_/1, motor_run_/2, motor_run_direct_/3,
                 motor_stop_/3, motor_turn_/3, motor_wait_/3,
                 motor_wait_flag_/4, motors_run_/1, run_forever_/2,
                 stop_all_motors_/0
               ]).
-:- use_module(private/one_of).
+:- use_module(private/basics/small_lists).
 
 /** <module> Motors
 

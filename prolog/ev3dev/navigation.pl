@@ -3,20 +3,20 @@
             navigate_to/3       % +Map, +Goal, +Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [must_be/2, term_expansion/4]).
-:- use_module(private/explain).
+:- use_module(private/errors/errors, [must_be/2, term_expansion/4]).
+:- use_module(private/explain/hints).
 :- use_module(driver, []).
 :- use_module(drive, [drive_cm/2, drive_wait/2, face/2, pose/3]).
-:- use_module(private/causes, [acting_for/2]).
-:- use_module(private/drive_moves, [move/3]).
-:- use_module(private/arguments,
+:- use_module(private/journal/causes, [acting_for/2]).
+:- use_module(private/devices/drive_moves, [move/3]).
+:- use_module(private/checks/arguments,
               [number_option/4, option/2, option/3, take_options/4]).
-:- use_module(private/places, [place/2]).
-:- use_module(private/roadmap_arguments,
+:- use_module(private/checks/places, [place/2]).
+:- use_module(private/maps/roadmap_arguments,
               [roadmap_facts/2, roadmap_options/2, sensor_option/2]).
 :- use_module(robot, [stop/0]).
 :- use_module(sensors, [us_dist_cm/2]).
-:- use_module(private/native,
+:- use_module(private/native/native,
               [ steer_/5, views_block_/2, views_forget_/1, views_look_/5,
                 views_new_/2, views_obstacles_/3, views_step_/5 ]).
 

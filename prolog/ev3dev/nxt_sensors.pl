@@ -22,12 +22,12 @@
             energy_meter/4              % ?Port, -In, -Out, -Joules
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [domain_error/2, term_expansion/4]).
-:- use_module(private/arguments, [word/2]).
+:- use_module(private/errors/errors, [domain_error/2, term_expansion/4]).
+:- use_module(private/checks/arguments, [word/2]).
 :- use_module(sensors, [reading_of/4, sensor_reading/3]).
-:- use_module(private/sensor_type, [sensor_to_read/3]).
-:- use_module(private/native, [sensor_values_/5]).
-:- use_module(private/one_of).
+:- use_module(private/devices/sensor_type, [sensor_to_read/3]).
+:- use_module(private/native/native, [sensor_values_/5]).
+:- use_module(private/basics/small_lists).
 
 /** <module> Sensors of the NXT and of other makers
 

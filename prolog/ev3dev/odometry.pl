@@ -6,15 +6,15 @@
             drive_option/2          % +Name, ?Value
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors,
+:- use_module(private/errors/errors,
               [domain_error/2, must_be/2, term_expansion/4]).
-:- use_module(private/explain).
+:- use_module(private/explain/hints).
 :- use_module(driver, []).
-:- use_module(private/arguments,
+:- use_module(private/checks/arguments,
               [number_value/2, number_value/3, speed_unit/3, word/2]).
-:- use_module(private/robot_state,
+:- use_module(private/devices/robot_state,
               [drive_default/2, robot_description/1, store_drive_default/2]).
-:- use_module(private/native,
+:- use_module(private/native/native,
               [ heading_wrapped_/2, pose_/5, pose_uncertainty_/3,
                 set_pose_/5 ]).
 

@@ -4,12 +4,13 @@
             pddl_write/1                % :File
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
+:- use_module(private/load/compiled, []).
 :- reexport(golog).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module(private/directory,
+:- use_module(private/files/directory,
               [file_path/2, readable_file/3, write_file/2]).
-:- use_module(private/errors, [must_be/2, term_expansion/4, throw_error/3]).
+:- use_module(private/errors/errors,
+              [must_be/2, term_expansion/4, throw_error/3]).
 :- use_module(private/golog/pddl_text, [pddl_parts/2]).
 :- use_module(private/golog/s_expressions, [expression/3]).
 :- use_module(private/golog/theory, [declare_domain/1]).

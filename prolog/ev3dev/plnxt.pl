@@ -30,16 +30,16 @@
             timer_killall/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/errors,
+:- use_module(private/load/compiled, []).
+:- use_module(private/errors/errors,
               [ domain_error/2, existence_error/2, goal_of_program/1,
                 instantiation_error/1, must_be/2, term_expansion/4
               ]).
-:- use_module(private/arguments, [number_value/2, number_value/3]).
-:- use_module(private/brick, [brick/1]).
-:- use_module(private/one_of, [append_lists/3, one_of/2]).
-:- use_module(private/robot_state, [robot/4]).
-:- use_module(private/sensor_type, [sensor_of/3, sensor_to_read/3]).
+:- use_module(private/checks/arguments, [number_value/2, number_value/3]).
+:- use_module(private/run/brick, [brick/1]).
+:- use_module(private/basics/small_lists, [append_lists/3, one_of/2]).
+:- use_module(private/devices/robot_state, [robot/4]).
+:- use_module(private/devices/sensor_type, [sensor_of/3, sensor_to_read/3]).
 :- use_module(drive, [arc_cm/4, go_cm/3, turn/3]).
 :- use_module(events,
               [event/2, event_cancel/1, every/3, on/3]).

@@ -6,12 +6,12 @@
             port_device/2               % ?Port, ?Device
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [term_expansion/4]).
-:- use_module(private/arguments, [word/2]).
-:- use_module(private/explain).
+:- use_module(private/errors/errors, [term_expansion/4]).
+:- use_module(private/checks/arguments, [word/2]).
+:- use_module(private/explain/hints).
 :- use_module(driver, []).
-:- use_module(private/attributes, [attribute_words/4]).
-:- use_module(private/native,
+:- use_module(private/devices/attributes, [attribute_words/4]).
+:- use_module(private/native/native,
               [ attribute_/4, device_/3, port_device_/2, port_set_device_/2,
                 port_set_mode_/2 ]).
 

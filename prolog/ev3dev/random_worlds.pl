@@ -5,10 +5,10 @@
             random_track/3              % +Seed, +Options, -World
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/arguments,
+:- use_module(private/load/compiled, []).
+:- use_module(private/checks/arguments,
               [ must_be_options/3, number_option/4, option/3 ]).
-:- use_module(private/errors,
+:- use_module(private/errors/errors,
               [ domain_error/2, in_own_name/1, must_be/2, term_expansion/4,
                 throw_error/3 ]).
 :- use_module(roadmap, [roadmap_path/5]).

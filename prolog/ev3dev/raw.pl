@@ -4,13 +4,13 @@
             analog_voltage/2            % ?Port, -Volts
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/errors,
+:- use_module(private/load/compiled, []).
+:- use_module(private/errors/errors,
               [domain_error/2, must_be/2, term_expansion/4]).
-:- use_module(private/arguments, [must_be_within/4]).
-:- use_module(private/native, [i2c_read_/4, i2c_write_/3]).
-:- use_module(private/one_of).
-:- use_module(private/sensor_type, [sensor_to_read/3]).
+:- use_module(private/checks/arguments, [must_be_within/4]).
+:- use_module(private/native/native, [i2c_read_/4, i2c_write_/3]).
+:- use_module(private/basics/small_lists).
+:- use_module(private/devices/sensor_type, [sensor_to_read/3]).
 :- use_module(sensors, [reading_of/4, sensor_reading/3]).
 
 /** <module> Registers and voltages of sensors

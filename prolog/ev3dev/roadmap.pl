@@ -5,17 +5,17 @@
             roadmap_svg/5       % +Map, +Start, +Goal, +File, +Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/errors, [term_expansion/4]).
-:- use_module(private/directory, [write_file/2]).
-:- use_module(private/explain).
+:- use_module(private/load/compiled, []).
+:- use_module(private/errors/errors, [term_expansion/4]).
+:- use_module(private/files/directory, [write_file/2]).
+:- use_module(private/explain/hints).
 :- use_module(driver, []).
-:- use_module(private/arguments, [option/3, take_options/4]).
-:- use_module(private/places, [place/2]).
-:- use_module(private/roadmap_arguments,
+:- use_module(private/checks/arguments, [option/3, take_options/4]).
+:- use_module(private/checks/places, [place/2]).
+:- use_module(private/maps/roadmap_arguments,
               [roadmap_facts/2, roadmap_options/2]).
 :- reexport(navigation).
-:- use_module(private/native, [roadmap_/5, roadmap_svg_/5]).
+:- use_module(private/native/native, [roadmap_/5, roadmap_svg_/5]).
 
 /** <module> Ways for a robot between obstacles of any shape
 

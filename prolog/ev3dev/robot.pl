@@ -9,24 +9,24 @@
             turn/2              % +Speed, +Angle
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors,
+:- use_module(private/errors/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/4
               ]).
-:- use_module(private/explain).
+:- use_module(private/explain/hints).
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1, stop_all_motors/0]).
 :- use_module(motor_settings, [motor_gear/2]).
-:- use_module(private/arguments,
+:- use_module(private/checks/arguments,
               [ angle_value/2, must_be_options/3, number_option/4,
                 number_value/3, option/2, option/3, word/2
               ]).
-:- use_module(private/domains, [finite/1]).
-:- use_module(private/drive_moves,
+:- use_module(private/errors/domains, [finite/1]).
+:- use_module(private/devices/drive_moves,
               [move_straight/3, move_turn/3, robot_speed/2]).
-:- use_module(private/robot_state,
+:- use_module(private/devices/robot_state,
               [ robot_description/1, robot_set/4, store_robot/2 ]).
-:- reexport(private/robot_state, [robot/4]).
-:- use_module(private/native, [odometry_/1]).
+:- reexport(private/devices/robot_state, [robot/4]).
+:- use_module(private/native/native, [odometry_/1]).
 
 /** <module> A robot with two wheels
 

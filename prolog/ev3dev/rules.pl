@@ -10,19 +10,19 @@
             op(1150, xfx, ~>)
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/errors,
+:- use_module(private/load/compiled, []).
+:- use_module(private/errors/errors,
               [ domain_error/2, error_within/3, existence_error/2,
                 goal_of_program/1, instantiation_error/1, must_be/2, shown/2,
                 term_expansion/4, throw_error/3, type_error/2
               ]).
-:- use_module(private/arguments,
+:- use_module(private/checks/arguments,
               [must_be_options/3, number_value/3, option/2, option/3]).
-:- use_module(private/one_of, [append_lists/3, one_of/2]).
-:- use_module(private/causes, [acting_for/2, begins/1]).
-:- use_module(private/conditions, [condition_goal/2]).
-:- use_module(private/waits, [in_guard/2, leave/2, listening/3]).
-:- use_module(private/native,
+:- use_module(private/basics/small_lists, [append_lists/3, one_of/2]).
+:- use_module(private/journal/causes, [acting_for/2, begins/1]).
+:- use_module(private/devices/conditions, [condition_goal/2]).
+:- use_module(private/run/waits, [in_guard/2, leave/2, listening/3]).
+:- use_module(private/native/native,
               [ commands_/1, motors_leave_/2, motors_stop_/2, now_/1,
                 slices_/1 ]).
 :- use_module(time, [wait/1]).

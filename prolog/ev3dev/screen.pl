@@ -17,16 +17,16 @@
             screen_png/1                % +File
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors,
+:- use_module(private/errors/errors,
               [ domain_error/2, evaluated/2, in_own_name/1, must_be/2,
                 term_expansion/4, throw_error/3
               ]).
-:- use_module(private/explain).
+:- use_module(private/explain/hints).
 :- use_module(files, []).
-:- use_module(private/arguments,
+:- use_module(private/checks/arguments,
               [must_be_options/3, must_be_within/4, option/3]).
-:- use_module(private/directory, [file_path/2]).
-:- use_module(private/native,
+:- use_module(private/files/directory, [file_path/2]).
+:- use_module(private/native/native,
               [ screen_clear_/0, screen_draw_/2, screen_image_/3,
                 screen_png_/1, screen_show_/0, screen_write_/4 ]).
 

@@ -6,11 +6,11 @@
             sensor_command/2            % +Port, +Command
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [must_be/2, term_expansion/4]).
+:- use_module(private/errors/errors, [must_be/2, term_expansion/4]).
 :- use_module(driver, [lego_sensor/2, mode/2, sensor_attribute/3]).
 :- use_module(sensors, [sensor_values/3]).
-:- use_module(private/attributes, [attribute_words/4, device_at/3]).
-:- use_module(private/one_of).
+:- use_module(private/devices/attributes, [attribute_words/4, device_at/3]).
+:- use_module(private/basics/small_lists).
 
 /** <module> All sensors and their modes
 
@@ -95,7 +95,8 @@ load_tables_once :-
     assertz(tables_loaded).
 
 load_table(Directory, Name) :-
-    atomic_list_concat([Directory, '/private/sensor_table/', Name], File),
+    atomic_list_concat([Directory, '/private/devices/sensor_table/', Name],
+                       File),
     load_files(ev3dev_sensor_info:File, [if(not_loaded), imports([])]).
 
 %!  sensor_info(?Port, -Info) is nondet.

@@ -3,18 +3,18 @@
             sensor_wait/2               % :Condition, +Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors,
+:- use_module(private/errors/errors,
               [ domain_error/2, existence_error/2, must_be/2,
                 term_expansion/4, throw_error/3
               ]).
-:- use_module(private/explain).
+:- use_module(private/explain/hints).
 :- use_module(sensors, [reading_of/4]).
-:- use_module(private/arguments,
+:- use_module(private/checks/arguments,
               [must_be_options/3, option/2, timeout_option/2]).
-:- use_module(private/conditions,
+:- use_module(private/devices/conditions,
               [comparison/3, condition_goal/2, sensor_named/3]).
-:- use_module(private/waits, [in_guard/2, waited/1]).
-:- use_module(private/native, [guards_/0, now_/1, sensor_wait_/5]).
+:- use_module(private/run/waits, [in_guard/2, waited/1]).
+:- use_module(private/native/native, [guards_/0, now_/1, sensor_wait_/5]).
 :- use_module(time, [wait/1]).
 
 :- meta_predicate

@@ -25,11 +25,11 @@
             reading_of/4                % ?Reading, ?Types, ?Mode, ?Index
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [term_expansion/4]).
-:- use_module(private/explain).
+:- use_module(private/errors/errors, [term_expansion/4]).
+:- use_module(private/explain/hints).
 :- use_module(driver, [lego_sensor/2]).
-:- use_module(private/sensor_type, [sensor_of/3]).
-:- use_module(private/native,
+:- use_module(private/devices/sensor_type, [sensor_of/3]).
+:- use_module(private/native/native,
               [ sensor_known_/3, sensor_restart_/3, sensor_scale_/3,
                 sensor_value_/5, sensor_value_or_why_/5, sensor_values_/5 ]).
 
@@ -164,9 +164,9 @@ no_sensor_for(Reading, Port) :-
     ;   fail_because(no_reading(Reading))
     ).
 
-:- multifile ev3dev_explain:reading_types/2.
+:- multifile ev3dev_hints:reading_types/2.
 
-ev3dev_explain:reading_types(Reading, Types) :-
+ev3dev_hints:reading_types(Reading, Types) :-
     reading_of(Reading, Types, _, _).
 
 %   A lookup takes as long as reading a file does. So the clause of a reading

@@ -8,13 +8,13 @@
             servo_motor_attribute/3     % ?Port, +Attribute, ?Value
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [evaluated/2, term_expansion/4]).
-:- use_module(private/explain).
+:- use_module(private/errors/errors, [evaluated/2, term_expansion/4]).
+:- use_module(private/explain/hints).
 :- use_module(driver, [servo_motor/1]).
-:- use_module(private/halt, []).
-:- use_module(private/attributes,
+:- use_module(private/run/halt, []).
+:- use_module(private/devices/attributes,
               [attribute/4, class_polarity/3, class_settings/3]).
-:- use_module(private/native,
+:- use_module(private/native/native,
               [ servo_motor_float_/1, servo_position_/2, servo_set_position_/2
               ]).
 

@@ -6,31 +6,33 @@
             with_sim/3                  % +World, :Goal, +Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/errors,
+:- use_module(private/load/compiled, []).
+:- use_module(private/errors/errors,
               [ domain_error/2, existence_error/2, goal_of_program/1,
                 must_be/2, must_be_goal/1, term_expansion/4, throw_error/3
               ]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
-:- use_module(private/arguments, [must_be_options/3, option/2, option/3]).
-:- use_module(private/brick,
+:- use_module(private/checks/arguments,
+              [must_be_options/3, option/2, option/3]).
+:- use_module(private/run/brick,
               [ end_brick/1, in_brick/2, in_new_brick/1,
                 must_be_new_names/1, name_brick/3, new_brick/1 ]).
-:- use_module(private/chance,
+:- use_module(private/simulation/random_seed,
               [begin_chance_of/1, end_chance/0, with_own_chance/1]).
-:- use_module(private/facts,
+:- use_module(private/files/facts,
               [located_facts/3, source_location/3, throw_located/3]).
-:- use_module(private/limits, [clock_changes/1, forget_plans/0]).
-:- use_module(private/plans, [run_due_goals/0]).
-:- use_module(private/turn, []).
-:- use_module(private/waits, [event_period/2]).
-:- use_module(private/world_name, [note_world/2]).
+:- use_module(private/simulation/time_limits,
+              [clock_changes/1, forget_plans/0]).
+:- use_module(private/simulation/schedule, [run_due_goals/0]).
+:- use_module(private/simulation/turn_order, []).
+:- use_module(private/run/waits, [event_period/2]).
+:- use_module(private/simulation/world_name, [note_world/2]).
 :- use_module(sim_hand, [set_added_facts/1]).
 :- reexport(sim_hand, except([added_facts/1, set_added_facts/1])).
 :- reexport(sim_time).
 :- reexport(sim_views).
-:- use_module(private/native,
+:- use_module(private/native/native,
               [sim_active_/0, sim_crowd_/4, sim_start_/4, sim_stop_/0]).
 
 :- meta_predicate

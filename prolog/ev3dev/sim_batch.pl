@@ -4,16 +4,16 @@
             sim_batch_work/2            % +Address, +Workers
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/arguments,
+:- use_module(private/load/compiled, []).
+:- use_module(private/checks/arguments,
               [ limit_option/3, must_be_options/3, option/3,
                 take_options/4 ]).
-:- use_module(private/errors,
+:- use_module(private/errors/errors,
               [in_own_name/1, must_be/2, term_expansion/4]).
-:- use_module(private/batch_pool,
+:- use_module(private/batch/pool,
               [ batch_step/3, end_workers/1, start_workers/2,
                 workers_ready/2 ]).
-:- use_module(private/redis, [redis_address/2]).
+:- use_module(private/processes/redis, [redis_address/2]).
 :- use_module(library(lists), [member/2]).
 
 /** <module> The same program in many simulations
@@ -120,8 +120,8 @@ sim_batch(File, Test, Seeds, Scores, Options) :-
                                    [file_type(prolog), access(read)])),
     length(Seeds, All),
     (   Server = redis(HostPort)
-    ->  use_module(library(ev3dev/private/batch_redis), []),
-        ev3dev_batch_redis:redis_batch(
+    ->  use_module(library(ev3dev/private/batch/machines), []),
+        ev3dev_batch_machines:redis_batch(
             HostPort, program(Path, Test, World, Sim, Limits), Seeds,
             ev3dev_sim_batch:report(Progress-All), Done)
     ;   numbered(Seeds, 1, Todos),
@@ -148,8 +148,8 @@ sim_batch_work(Address, Workers) :-
     must_be(nonvar, Address),
     must_be(positive_integer, Workers),
     redis_address(Address, HostPort),
-    use_module(library(ev3dev/private/batch_redis), []),
-    ev3dev_batch_redis:redis_work(HostPort, Workers).
+    use_module(library(ev3dev/private/batch/machines), []),
+    ev3dev_batch_machines:redis_work(HostPort, Workers).
 
 own_options(Options, Workers, limits(Sleep, Cpu), Progress) :-
     (   current_prolog_flag(cpu_count, Processors)

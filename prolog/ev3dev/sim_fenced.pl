@@ -4,18 +4,18 @@
             can_enclose/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, [pack_folder/1]).
-:- use_module(private/arguments,
+:- use_module(private/load/compiled, [pack_folder/1]).
+:- use_module(private/checks/arguments,
               [ limit_option/2, limit_option/3, must_be_options/3,
                 option/3 ]).
-:- use_module(private/chance, [branch_seed/1]).
-:- use_module(private/directory, [new_directory/2]).
-:- use_module(private/errors,
+:- use_module(private/simulation/random_seed, [branch_seed/1]).
+:- use_module(private/files/directory, [new_directory/2]).
+:- use_module(private/errors/errors,
               [in_own_name/1, must_be/2, term_expansion/4, throw_error/3]).
-:- use_module(private/native,
+:- use_module(private/native/native,
               [ sim_fence_close_/0, sim_fence_open_/1,
                 sim_fence_serve_/3, sim_fence_silent_/0 ]).
-:- use_module(private/usage,
+:- use_module(private/processes/usage,
               [ usage_age/2, usage_begins/1, usage_beyond/3, usage_goes_on/5,
                 usage_heard/2 ]).
 :- use_module(sim_time, [sim_time/1]).
@@ -271,7 +271,7 @@ start(Directory, [Socket, Tells, Seed], Output, Path, Goal,
     current_prolog_flag(executable, Prolog),
     pack_folder(Pack),
     atomic_list_concat(['library=', Pack, '/prolog'], Alias),
-    atom_concat(Pack, '/prolog/ev3dev/private/fenced.pl', Begins),
+    atom_concat(Pack, '/prolog/ev3dev/private/batch/fenced_seed.pl', Begins),
     current_prolog_flag(version, Version),
     (   Version < 70500                 % where failing is no error
     ->  format(atom(GoalText), '(~q->true;halt(1))', [Goal])

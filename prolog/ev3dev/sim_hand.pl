@@ -16,15 +16,15 @@
             set_added_facts/1           % +Added
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/brick, [brick/1]).
-:- use_module(private/errors, [must_be/2, term_expansion/4]).
-:- use_module(private/explain, [fail_because/1]).
+:- use_module(private/run/brick, [brick/1]).
+:- use_module(private/errors/errors, [must_be/2, term_expansion/4]).
+:- use_module(private/explain/hints, [fail_because/1]).
 :- use_module(library(lists), [member/2]).
-:- use_module(private/arguments,
+:- use_module(private/checks/arguments,
               [ must_be_options/3, number_option/4, number_value/2,
                 number_value/3, option/3
               ]).
-:- use_module(private/native,
+:- use_module(private/native/native,
               [ sim_active_/0, sim_add_/2, sim_jam_/2, sim_key_/2,
                 sim_place_/3, sim_plan_key_/3, sim_plug_/2, sim_remote_/2,
                 sim_remove_/1, sim_show_/3, sim_unplug_/1, sim_unshow_/2

@@ -8,15 +8,16 @@
             for_seconds/2               % +Seconds, :Goal
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors,
+:- use_module(private/errors/errors,
               [ domain_error/2, evaluated/2, must_be/2, must_be_goal/1,
                 term_expansion/4 ]).
-:- use_module(private/arguments, [number_value/3]).
-:- use_module(private/limits, [clock_changes/1, within_seconds/2]).
-:- use_module(private/plans, [plan/3]).
-:- use_module(private/waits, [waited/1]).
+:- use_module(private/checks/arguments, [number_value/3]).
+:- use_module(private/simulation/time_limits,
+              [clock_changes/1, within_seconds/2]).
+:- use_module(private/simulation/schedule, [plan/3]).
+:- use_module(private/run/waits, [waited/1]).
 :- use_module(sim_hand, [added_facts/1, set_added_facts/1]).
-:- use_module(private/native,
+:- use_module(private/native/native,
               [ sim_restore_/1, sim_snapshot_/1, sim_snapshots_/1,
                 sim_step_/1, sim_time_/1, sim_wait_/2 ]).
 

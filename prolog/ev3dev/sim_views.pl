@@ -9,10 +9,10 @@
             sim_unmount/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [must_be/2, term_expansion/4]).
+:- use_module(private/errors/errors, [must_be/2, term_expansion/4]).
 :- use_module(library(lists), [member/2]).
-:- use_module(private/directory, [directory_path/2, write_file/2]).
-:- use_module(private/native,
+:- use_module(private/files/directory, [directory_path/2, write_file/2]).
+:- use_module(private/native/native,
               [ sim_collisions_/1, sim_mount_/2, sim_pose_/3, sim_svg_/1,
                 sim_trace_/1, sim_unmount_/0 ]).
 

@@ -12,15 +12,16 @@
             sound_stop/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors,
+:- use_module(private/errors/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/4
               ]).
-:- use_module(private/explain).
+:- use_module(private/explain/hints).
 :- use_module(files, []).
-:- use_module(private/arguments, [must_be_options/3, option/3, word/2]).
-:- use_module(private/directory, [file_path/2]).
-:- use_module(private/waits, [waited/1]).
-:- use_module(private/native,
+:- use_module(private/checks/arguments,
+              [must_be_options/3, option/3, word/2]).
+:- use_module(private/files/directory, [file_path/2]).
+:- use_module(private/run/waits, [waited/1]).
+:- use_module(private/native/native,
               [ play_/3, say_/3, sound_stop_/0, sound_wait_/1, tones_/3,
                 volume_/1, volume_set_/1 ]).
 

@@ -5,12 +5,12 @@
             elapsed/2                   % +Watch, -Seconds
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors,
+:- use_module(private/errors/errors,
               [ domain_error/2, must_be/2, term_expansion/4 ]).
 :- use_module(files, []).
-:- use_module(private/arguments, [number_value/3]).
-:- use_module(private/waits, [waited/1]).
-:- use_module(private/native, [now_/1, wait_/2]).
+:- use_module(private/checks/arguments, [number_value/3]).
+:- use_module(private/run/waits, [waited/1]).
+:- use_module(private/native/native, [now_/1, wait_/2]).
 
 /** <module> Waiting, the clock, stopwatches
 

@@ -8,18 +8,18 @@
             view_value/2                % +Name, +Number
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/errors,
+:- use_module(private/load/compiled, []).
+:- use_module(private/errors/errors,
               [ domain_error/2, evaluated/2, in_own_name/1, must_be/2,
                 term_expansion/4, throw_error/3
               ]).
-:- use_module(private/arguments, [must_be_options/3, option/3]).
-:- use_module(private/browser, [open_browser/2]).
-:- use_module(private/native,
+:- use_module(private/checks/arguments, [must_be_options/3, option/3]).
+:- use_module(private/processes/browser, [open_browser/2]).
+:- use_module(private/native/native,
               [ view_close_/0, view_open_/0, view_value_/2 ]).
-:- use_module(private/view/hands, [hands_end/0]).
+:- use_module(private/view/controls, [hands_end/0]).
 :- use_module(private/view/jog, [jog_end/0]).
-:- use_module(private/view/known, [watch_add/2, watches_end/0]).
+:- use_module(private/view/static_state, [watch_add/2, watches_end/0]).
 :- use_module(private/view/log,
               [leave_messages/0, mark/1, watch_messages/0]).
 :- use_module(private/view/page,

@@ -1,11 +1,11 @@
 :- module(ev3dev_worker, [work/0]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
-:- use_module(private/descriptors, [taken/3]).
-:- use_module(private/errors, [goal_of_program/1]).
-:- use_module(private/far_frames,
+:- use_module(private/load/compiled, []).
+:- use_module(private/processes/descriptors, [taken/3]).
+:- use_module(private/errors/errors, [goal_of_program/1]).
+:- use_module(private/bricks/far_frames,
               [ beat/1, protocol/1, receive_frames/2, send_frame/4 ]).
-:- use_module(private/native, [stop_all_bricks_/0]).
+:- use_module(private/native/native, [stop_all_bricks_/0]).
 :- user:use_module(library(ev3dev)).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(unix), [dup/2]).

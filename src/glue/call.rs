@@ -193,7 +193,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// What this thread is about to do.
     fn about(&self) -> PrologResult<String> {
         let text = self.context.new_term_ref();
-        self.context.ask(pred!("ev3dev_turn:about/1"), [&text])?;
+        self.context.ask(pred!("ev3dev_turn_order:about/1"), [&text])?;
         text.get()
     }
 
@@ -345,7 +345,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 
     /// Fails, and has Prolog explain why.
     pub(crate) fn fail_because<T>(&self, cause: &Term) -> PrologResult<T> {
-        self.context.ask(pred!("ev3dev_explain:fail_because/1"), [cause])?;
+        self.context.ask(pred!("ev3dev_hints:fail_because/1"), [cause])?;
         Err(PrologError::Failure)
     }
 
@@ -430,7 +430,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 /// Runs the goals that this thread has planned and that are due.
 fn run_due_goals<'a, C: QueryableContextType>(context: &'a Context<'a, C>) -> PrologResult<()> {
     if has_rung() {
-        context.ask(pred!("ev3dev_plans:run_due_goals/0"), [])?;
+        context.ask(pred!("ev3dev_schedule:run_due_goals/0"), [])?;
     }
     Ok(())
 }

@@ -67,7 +67,7 @@ fn end_of_program<C: QueryableContextType>(call: &Origin<C>) -> PrologResult<()>
     Ok(())
 }
 
-/// `throw(Formal, Called, Message)`, for `private/waits.pl` to throw.
+/// `throw(Formal, Called, Message)`, for `private/run/waits.pl` to throw.
 ///
 /// A nondeterministic predicate must not throw when it is called again: before SWI-Prolog 7.3,
 /// Prolog then calls it once more, to forget a state that is gone already.
@@ -147,7 +147,7 @@ pub(crate) fn no_text<T, C: QueryableContextType>(call: &Origin<C>) -> PrologRes
 }
 
 /// Raises `error(Formal, context(Called, Message))`, as
-/// `prolog/ev3dev/private/errors.pl` does: that file finds the predicate that the
+/// `prolog/ev3dev/private/errors/errors.pl` does: that file finds the predicate that the
 /// program called, and words an empty message.
 fn throw<'a, T, C: QueryableContextType>(
     call: &Origin<'a, C>,

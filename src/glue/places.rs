@@ -1,4 +1,4 @@
-//! Places: `X-Y` in cm. Read as `[X, Y]`, too, as `prolog/ev3dev/private/places.pl` does.
+//! Places: `X-Y` in cm. Read as `[X, Y]`, too, as `prolog/ev3dev/private/checks/places.pl` does.
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
 use swipl::prelude::*;

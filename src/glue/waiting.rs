@@ -1,7 +1,7 @@
 //! Native waits, as Prolog sees them.
 //!
 //! A wait is a nondeterministic predicate. Its last argument is the end of the wait, or before that
-//! `pause`, `tick` or `yield`, each time with a choice point: `private/waits.pl` handles it, and
+//! `pause`, `tick` or `yield`, each time with a choice point: `private/run/waits.pl` handles it, and
 //! fails back into the wait. So Prolog handles signals and serves events between two slices,
 //! and an engine can yield there. What leaves the wait, as an exception, drops its state, and so
 //! stops the motors of a move.

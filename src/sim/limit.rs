@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/private/limits.pl`: a goal that is left, whatever it catches.
+//! `prolog/ev3dev/private/simulation/time_limits.pl`: a goal that is left, whatever it catches.
 //!
 //! catch/3 throws an abort again when it has caught one, so no goal of Prolog ends it: only a
 //! query of native code does.
@@ -14,7 +14,7 @@ thread_local! {
 
 natives! {
     /// limit_call_(+Id, :Goal): calls Goal once. What it throws ends it well if
-    /// `ev3dev_limits:is_left_by/2` says so.
+    /// `ev3dev_time_limits:is_left_by/2` says so.
     semidet fn "limit_call_"(context, id, goal) {
         let rounds = waiting::rounds();
         let number = id.get()?;
@@ -45,7 +45,7 @@ natives! {
 /// Whether the exception that is thrown now is how a limit leaves its goal.
 fn is_left<C: QueryableContextType>(context: &Context<C>, id: &Term) -> bool {
     context.with_exception(|ball| {
-        let by = |ball| context.ask(pred!("ev3dev_limits:is_left_by/2"), [id, ball]);
+        let by = |ball| context.ask(pred!("ev3dev_time_limits:is_left_by/2"), [id, ball]);
         ball.is_some_and(|ball| by(ball).is_ok())
     })
 }

@@ -327,7 +327,7 @@ written(Folder, Name, Text) :-
 
 with_playground(Folder, Url, Goal) :-
     format(string(Text),
-           ":- use_module(library(ev3dev/private/playground)).~n\c
+           ":- use_module(library(ev3dev/private/app/playground_server)).~n\c
             go :- serve(~q, localhost, 0, false).~n", [Folder]),
     setup_call_cleanup(
         start_program(Text, [goal(go)], Child),

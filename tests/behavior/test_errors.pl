@@ -3,7 +3,7 @@
 
 :- use_module('../support/libraries').
 :- use_module('../support/simulation').
-:- use_module(library(ev3dev/private/help_index), []).
+:- use_module(library(ev3dev/private/help/help_index), []).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/console)).
 :- use_module(library(ev3dev/drive)).

@@ -15,9 +15,9 @@
            Loaded),
    assertz(costs_a_session(Loaded)).
 
-:- use_module(library(ev3dev/private/help_index), []).
-:- use_module(library(ev3dev/private/help_words), [words_for/2]).
-:- use_module(library(ev3dev/private/libraries), [in_library/2]).
+:- use_module(library(ev3dev/private/help/help_index), []).
+:- use_module(library(ev3dev/private/help/help_words), [words_for/2]).
+:- use_module(library(ev3dev/private/help/libraries), [in_library/2]).
 :- use_module('../support/child').
 :- use_module('../support/libraries').
 

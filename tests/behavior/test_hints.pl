@@ -28,7 +28,7 @@ advice(Flag, Goal, Texts) :-
 
 with_flag(Flag, Goal) :-
     current_prolog_flag(ev3dev_hints, Before),
-    retractall(ev3dev_explain:told(_)),
+    retractall(ev3dev_hints:told(_)),
     setup_call_cleanup(
         set_prolog_flag(ev3dev_hints, Flag),
         Goal,

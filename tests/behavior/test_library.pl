@@ -26,7 +26,7 @@ test(each_export_of_each_library_is_defined,
               \+ predicate_property(Module:Head, defined) ),
             Missing).
 
-%   A library that private/core.pl hands on.
+%   A library that private/load/core.pl hands on.
 
 part(Name) :-
     module_property(ev3dev_core, file(Core)),

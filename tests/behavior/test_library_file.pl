@@ -1,6 +1,6 @@
 :- module(test_library_file, []).
 :- asserta(user:file_search_path(library, prolog)).
-:- use_module(library(ev3dev/private/library_file)).
+:- use_module(library(ev3dev/private/native/library_file)).
 :- use_module('../support/child', [swipl/1]).
 :- use_module('../support/libraries', [public_library/1]).
 :- use_module(library(apply)).

@@ -11,7 +11,7 @@
    absolute_file_name(Up, Home, [file_type(directory)]),
    assertz(pack_under_test(Home)).
 
-:- use_module('../../prolog/ev3dev/private/libraries', [in_library/2]).
+:- use_module('../../prolog/ev3dev/private/help/libraries', [in_library/2]).
 
 :- dynamic
     pack_under_test/1,
@@ -215,7 +215,7 @@ test(is_used_by_each_library_that_is_loaded_first,
            [Library]),
     run(Goal, Result).
 test(each_library_that_is_loaded_first_is_in_a_unit, true(Result == 0-"")) :-
-    run("use_module(library(ev3dev/compile)), use_module(library(ev3dev/private/libraries)),
+    run("use_module(library(ev3dev/compile)), use_module(library(ev3dev/private/help/libraries)),
          forall(( in_library(L, _), L \\== compile, atom_concat('ev3dev/', L, E),
                   \\+ ( ev3dev_compile:unit(_, Es), '$member'(E, Es) ) ),
                 format('~w ', [L]))", Result).

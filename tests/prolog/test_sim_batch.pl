@@ -62,7 +62,7 @@ scores(File, Test, Seeds, Options, Scores) :-
 %   Copies that were killed may take a moment.
 
 no_worker_is_left :-
-    eventually(\+ descendant('batch_worker.pl')).
+    eventually(\+ descendant('batch/worker.pl')).
 
 call_soon(Goal) :-
     thread_self(Me),

@@ -368,13 +368,13 @@ test(leaves_a_goal_that_sleeps, error(resource_error(seconds), context(for_secon
     with_most(100000000, 0.3, with_sim([], for_seconds(5, ( repeat, sleep(0.05), fail )))).
 test(computing_counts_a_tenth_of_sleeping) :-
     get_time(Start),
-    ev3dev_limits:used_so_far(_, _, Idle0),
+    ev3dev_time_limits:used_so_far(_, _, Idle0),
     statistics(cputime, Computed0),
     repeat,
     statistics(cputime, Computed),
     Computed > Computed0 + 0.5,
     !,
-    ev3dev_limits:used_so_far(_, _, Idle),
+    ev3dev_time_limits:used_so_far(_, _, Idle),
     get_time(End),
     Idle - Idle0 < End - Start - 0.9*(Computed-Computed0) + 0.001,
     Idle > Idle0.
@@ -442,10 +442,10 @@ computes(N) :-
 
 with_most(Inferences, Seconds, Goal) :-
     setup_call_cleanup(
-        ( retract(ev3dev_limits:most(I0, S0)),
-          assertz(ev3dev_limits:most(Inferences, Seconds)) ),
+        ( retract(ev3dev_time_limits:most(I0, S0)),
+          assertz(ev3dev_time_limits:most(Inferences, Seconds)) ),
         Goal,
-        ( retractall(ev3dev_limits:most(_, _)), assertz(ev3dev_limits:most(I0, S0)) )).
+        ( retractall(ev3dev_time_limits:most(_, _)), assertz(ev3dev_time_limits:most(I0, S0)) )).
 
 ever :-
     repeat,

@@ -8,8 +8,8 @@
 :- use_module(trees).
 :- use_module(library(ev3dev)).
 :- use_module(papers).
-:- use_module(library(ev3dev/private/libraries)).
-:- use_module(library(ev3dev/private/told)).
+:- use_module(library(ev3dev/private/help/libraries)).
+:- use_module(library(ev3dev/private/journal/fenced_log)).
 :- use_module(library(check)).
 :- use_module(library(prolog_xref)).
 

@@ -8,7 +8,7 @@
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/planners)).
 :- use_module(library(ev3dev/private/golog/programs)).
-:- use_module(library(ev3dev/private/libraries)).
+:- use_module(library(ev3dev/private/help/libraries)).
 
 /** <module> What papers list is what the pack has
 

@@ -4,7 +4,7 @@
 //! first command; then a command to a motor allocates nothing. The drive notes a course
 //! when it begins and when it ends, and not how it steers in between.
 //!
-//! A cause is a number that stands for a term in Prolog (`private/causes.pl`). Each
+//! A cause is a number that stands for a term in Prolog (`private/journal/causes.pl`). Each
 //! thread has one at a time.
 use crate::class::Class;
 use crate::course::{Command, DriveOptions};

@@ -11,7 +11,7 @@
 //! * At SIGKILL nothing can be done within the process. A small one beside it
 //!   ([`survive`]) stops the motors as soon as this one has gone.
 //!
-//! Prolog's own end, as by halt/0, is the affair of `prolog/ev3dev/private/halt.pl`.
+//! Prolog's own end, as by halt/0, is the affair of `prolog/ev3dev/private/run/halt.pl`.
 //!
 //! Where there are no signals there is the latch alone.
 #![cfg_attr(unix, expect(unsafe_code, reason = "handlers of signals, and processes, are C's"))]

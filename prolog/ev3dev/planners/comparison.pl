@@ -2,13 +2,13 @@
           [ compare_planners/3          % +Map, +Goal, +Options
           ]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module('../private/errors', [must_be/2]).
+:- use_module('../private/errors/errors', [must_be/2]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../private/grid/compass').
 :- use_module('../private/grid/map').
 :- use_module('../private/grid/problem').
-:- use_module('../private/arguments', [must_be_options/3]).
+:- use_module('../private/checks/arguments', [must_be_options/3]).
 :- use_module(picture).
 :- use_module(search).
 

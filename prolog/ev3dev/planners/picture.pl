@@ -4,7 +4,7 @@
 :- use_module(library(lists), [member/2, nth0/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_values/2]).
-:- use_module('../private/directory', [write_file/2]).
+:- use_module('../private/files/directory', [write_file/2]).
 :- use_module('../private/grid/map').
 
 /** <module> A picture of the expanded states

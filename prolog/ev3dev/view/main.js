@@ -4,7 +4,7 @@ import { $, clock, el, notice, text, toggle } from './dom.js';
 import { Brick } from './brick.js';
 import { Charts } from './charts.js';
 import { Editor } from './editor.js';
-import { Hands } from './hands.js';
+import { Hands } from './controls.js';
 import { Log } from './log.js';
 import { KEPT, Model } from './model.js';
 import { Panels } from './panels.js';

@@ -48,7 +48,7 @@
                 is_kind/3, is_sensing_action/2, is_set_by_exogenous/2,
                 located/3, names_fluent/2, possible_of/2, proc_body/3
               ]).
-:- use_module('../errors', [throw_error/3]).
+:- use_module('../errors/errors', [throw_error/3]).
 
 /** <module> Situations, the values of fluents, conditions
 

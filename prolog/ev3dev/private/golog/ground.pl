@@ -11,7 +11,7 @@
               [ domain_list/3, has_clauses/2, is_kind/3, is_sensing_action/2,
                 names_fluent/2, proc_body/3
               ]).
-:- use_module('../errors', [throw_error/3]).
+:- use_module('../errors/errors', [throw_error/3]).
 
 /** <module> A domain of Golog whose fluents are true or false, made ground
 

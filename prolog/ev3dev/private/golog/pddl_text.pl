@@ -7,7 +7,7 @@
                 only_relations/1
               ]).
 :- use_module(theory, [prepare/1]).
-:- use_module('../errors', [throw_error/3]).
+:- use_module('../errors/errors', [throw_error/3]).
 
 /** <module> A domain of Golog as PDDL
 

@@ -14,7 +14,7 @@
                 only_relations/1
               ]).
 :- use_module(theory, [has_clauses/2, has_possible_values/1]).
-:- use_module('../errors', [throw_error/3]).
+:- use_module('../errors/errors', [throw_error/3]).
 
 /** <module> Plans for domains whose fluents are true or false
 

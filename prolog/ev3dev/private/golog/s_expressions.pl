@@ -2,7 +2,7 @@
           [ expression/3                % +Stream, +Path, -Expression
           ]).
 :- use_module(library(readutil), [read_stream_to_codes/2]).
-:- use_module('../errors', [throw_error/3]).
+:- use_module('../errors/errors', [throw_error/3]).
 
 /** <module> Lists in round brackets, as PDDL is written
 */

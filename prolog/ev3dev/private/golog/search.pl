@@ -14,11 +14,11 @@
                 situation_history/2
               ]).
 :- use_module(effort, [counted/2, effort_id/2, how_far/2, polled/1]).
-:- use_module(known_states, [state_key/4, states_forgotten/1, tried/5]).
+:- use_module(visited_states, [state_key/4, states_forgotten/1, tried/5]).
 :- use_module(relaxed, [task/5, task_plan/4]).
 :- use_module(theory, [has_clauses/2, is_kind/3, is_sensing_action/2]).
 :- use_module(transitions, [in_atom/3, is_final/3, step/5]).
-:- use_module('../errors', [domain_error/2]).
+:- use_module('../errors/errors', [domain_error/2]).
 :- use_module(simulated, [simulation_kept/1, tried_in_simulator/5]).
 
 /** <module> Search: plans that are found before they are carried out

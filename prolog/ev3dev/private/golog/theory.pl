@@ -21,7 +21,7 @@
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(programs, [has_binder/1, renamed/2]).
-:- use_module('../errors', [throw_error/3]).
+:- use_module('../errors/errors', [throw_error/3]).
 
 /** <module> The domain: what a program's module says about its world
 

@@ -29,7 +29,7 @@
               [construct/1, fresh/4, mapped/3, parts/5, weak_construct/1]).
 :- use_module(theory,
               [is_exogenous/2, is_kind/3, located/3, proc_body/3]).
-:- use_module('../errors', [throw_error/3]).
+:- use_module('../errors/errors', [throw_error/3]).
 
 /** <module> The language: which steps a program can take
 

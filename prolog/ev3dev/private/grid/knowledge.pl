@@ -8,12 +8,12 @@
             saw_free/1,                 % +Cell
             known_free/1                % ?Cell
           ]).
-:- use_module('../brick', [brick/1]).
-:- use_module('../errors', [term_expansion/4]).
+:- use_module('../run/brick', [brick/1]).
+:- use_module('../errors/errors', [term_expansion/4]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../driver', []).
 :- use_module(map, [must_be_cell/1]).
-:- use_module('../native', [now_/1]).
+:- use_module('../native/native', [now_/1]).
 
 /** <module> What a robot knows of its grid
 

@@ -16,12 +16,13 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, list_to_assoc/2]).
-:- use_module('../errors', [domain_error/2, must_be/2, term_expansion/4]).
+:- use_module('../errors/errors',
+              [domain_error/2, must_be/2, term_expansion/4]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [meta_options/3, option/2, option/3]).
 :- use_module(compass).
-:- use_module('../arguments', [must_be_options/3]).
-:- use_module('../native', [grid_drawn_/2]).
+:- use_module('../checks/arguments', [must_be_options/3]).
+:- use_module('../native/native', [grid_drawn_/2]).
 
 /** <module> Maps of grids
 

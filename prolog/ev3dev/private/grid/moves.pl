@@ -6,8 +6,8 @@
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../drive', [face/2, go_to/4]).
-:- use_module('../brick', [brick/1]).
-:- use_module('../causes', [acting_for/2]).
+:- use_module('../run/brick', [brick/1]).
+:- use_module('../journal/causes', [acting_for/2]).
 :- use_module(compass).
 :- use_module(knowledge).
 :- use_module(map).

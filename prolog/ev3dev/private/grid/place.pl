@@ -9,14 +9,14 @@
             grid_metric/2,              % +Options, -Metric
             set_pose_in/3               % +Metric, +Cell, +Direction
           ]).
-:- use_module('../brick', [brick/1]).
-:- use_module('../errors', [term_expansion/4]).
-:- use_module('../explain', [fail_because/1]).
+:- use_module('../run/brick', [brick/1]).
+:- use_module('../errors/errors', [term_expansion/4]).
+:- use_module('../explain/hints', [fail_because/1]).
 :- use_module('../../drive', [set_pose/3]).
 :- use_module(compass).
 :- use_module(knowledge).
 :- use_module(map).
-:- use_module('../arguments',
+:- use_module('../checks/arguments',
               [ number_option/4, number_value/2, number_value/3, option/2,
                 option/3, take_options/4
               ]).

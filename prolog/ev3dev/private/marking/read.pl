@@ -9,7 +9,7 @@
             forbidden/3,                % +Exercise, +Terms, -Reason
             program_terms/2             % +Text, -Terms
           ]).
-:- use_module('../errors', [in_own_name/1, throw_error/3]).
+:- use_module('../errors/errors', [in_own_name/1, throw_error/3]).
 :- use_module(library(lists),
               [append/3, member/2, numlist/3]).
 

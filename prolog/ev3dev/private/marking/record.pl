@@ -9,7 +9,7 @@
 :- use_module('../../sim_time', [sim_at/2, sim_time/1]).
 :- use_module('../../sim_views',
               [sim_collisions/1, sim_pose/3, sim_trace/1]).
-:- use_module('../facts', [located_facts/3]).
+:- use_module('../files/facts', [located_facts/3]).
 :- use_module(library(lists), [member/2, reverse/2]).
 
 /** <module> What a run was like, as far as scores and reports ask

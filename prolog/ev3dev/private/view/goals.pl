@@ -4,8 +4,8 @@
             goal_solve/4                % +Text, +Page, +Number, :Next
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../explain', [tell_again/0]).
-:- use_module('../native', [view_part_/0, view_say_/2]).
+:- use_module('../explain/hints', [tell_again/0]).
+:- use_module('../native/native', [view_part_/0, view_say_/2]).
 :- use_module(log, [error_text/2, note/2]).
 :- use_module(program, [part_begins/1, part_ends/1, program_state/1]).
 

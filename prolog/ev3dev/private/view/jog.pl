@@ -3,9 +3,9 @@
             jog_round/2,                % +Before, -After
             jog_end/0
           ]).
-:- use_module('../native',
+:- use_module('../native/native',
               [ motor_stop_/3, motors_run_/1, view_stands_/0, view_step_/2 ]).
-:- use_module('../robot_state', [robot/4]).
+:- use_module('../devices/robot_state', [robot/4]).
 :- use_module(program, [program_state/1, view_thread/0]).
 
 /** <module> Driving by the keys of a page

@@ -8,12 +8,12 @@
             lines_text/2                % +Lines, -Text
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../journal_words', [cause_words//1, command_words//2]).
-:- use_module('../causes', [causes/2, follow/1, follow_no_more/0]).
-:- use_module('../native',
+:- use_module('../journal/journal_words', [cause_words//1, command_words//2]).
+:- use_module('../journal/causes', [causes/2, follow/1, follow_no_more/0]).
+:- use_module('../native/native',
               [ journal_new_/1, view_log_/6, view_printed_/3,
                 view_serves_/0 ]).
-:- use_module('../uncaught', [in_words//1]).
+:- use_module('../explain/error_messages', [in_words//1]).
 
 /** <module> What the page's log is told
 

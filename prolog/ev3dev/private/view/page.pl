@@ -5,13 +5,13 @@
             page_settings/2,            % +Rate, +Goals
             word_rest/3                 % +Line, -Word, -Rest
           ]).
-:- use_module('../errors', [throw_error/3]).
-:- use_module('../native',
+:- use_module('../errors/errors', [throw_error/3]).
+:- use_module('../native/native',
               [ view_end_/2, view_frame_/5, view_hear_/3, view_leave_/1,
                 view_say_/2, view_serve_/5, view_shut_/1, view_visit_/1 ]).
 :- use_module(goals, [goal_line/4, goals_end/1]).
-:- use_module(hands, [hand_line/3]).
-:- use_module(known, [brick_show/1, renew_kept/0]).
+:- use_module(controls, [hand_line/3]).
+:- use_module(static_state, [brick_show/1, renew_kept/0]).
 :- use_module(log, [error_text/2, log_commands/1, mark/1, note/2]).
 :- use_module(program,
               [ lift_latch/0, probe_program/0, program_state/1,

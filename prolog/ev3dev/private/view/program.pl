@@ -15,10 +15,10 @@
             view_thread/0
           ]).
 :- use_module(library(lists), [delete/3, member/2]).
-:- use_module('../native',
+:- use_module('../native/native',
               [ view_latch_/0, view_lift_/0, view_prints_/1,
                 view_stop_motors_/0, view_thread_/1, view_users_/1 ]).
-:- use_module('../prompt', [reads_query/0]).
+:- use_module('../run/prompt', [reads_query/0]).
 
 /** <module> The program that is watched
 

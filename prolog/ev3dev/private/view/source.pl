@@ -5,8 +5,8 @@
             program_directory/1         % -Directory
           ]).
 :- use_module(library(lists), [last/2, member/2]).
-:- use_module('../causes', [active_clause/1]).
-:- use_module('../native', [view_keep_/2]).
+:- use_module('../journal/causes', [active_clause/1]).
+:- use_module('../native/native', [view_keep_/2]).
 :- use_module(program, [in_main/1, program_state/1]).
 
 /** <module> The text of the program, and what of it is active

@@ -4,13 +4,15 @@
           ]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
-:- use_module('../arguments', [option/3, take_options/4]).
-:- use_module('../chance', [end_chance/0]).
-:- use_module('../facts', [facts_of_text/3, located_facts/3, shipped/2]).
-:- use_module('../native', [sim_fault_/3, view_facts_/1, view_source_/1]).
-:- use_module('../world_name',
+:- use_module('../checks/arguments', [option/3, take_options/4]).
+:- use_module('../simulation/random_seed', [end_chance/0]).
+:- use_module('../files/facts',
+              [facts_of_text/3, located_facts/3, shipped/2]).
+:- use_module('../native/native',
+              [sim_fault_/3, view_facts_/1, view_source_/1]).
+:- use_module('../simulation/world_name',
               [name_world/1, noted_world/2, world_name/1]).
-:- use_module(hands, [name_of/2]).
+:- use_module(controls, [name_of/2]).
 :- use_module(log, [error_text/2]).
 :- use_module(program, [end_program/1, in_main/1]).
 :- use_module(source, [program_directory/1]).
@@ -195,7 +197,7 @@ begin(World, Options, Name) :-
     ev3dev_sim:sim_start(World, Options),
     % The numbers of the seed are for the program, not for this thread.
     end_chance,
-    in_main(ev3dev_chance:begin_chance_of(Options)),
+    in_main(ev3dev_random_seed:begin_chance_of(Options)),
     (   Name == none
     ->  true
     ;   name_world(Name)

@@ -1,0 +1,30 @@
+:- module(ev3dev_small_lists,
+          [ one_of/2,                   % +List, ?Element
+            append_lists/3              % ?List1, ?List2, ?List
+          ]).
+
+/** <module> member/2 and append/3 without library(lists)
+
+Loading that library takes a fifth of a second on a brick, and in its
+SWI-Prolog no other file of the pack needs it.
+*/
+
+%!  one_of(+List, ?Element) is nondet.
+%
+%   True if Element is an element of List. The last element leaves no choice
+%   point.
+
+one_of([Element0|Elements], Element) :-
+    one_of(Elements, Element0, Element).
+
+one_of(_, Element, Element).
+one_of([Element1|Elements], _, Element) :-
+    one_of(Elements, Element1, Element).
+
+%!  append_lists(?List1, ?List2, ?List) is nondet.
+%
+%   True if List has the elements of List1, then those of List2.
+
+append_lists([], List, List).
+append_lists([X|Xs], Ys, [X|Zs]) :-
+    append_lists(Xs, Ys, Zs).

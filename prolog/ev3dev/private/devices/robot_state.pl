@@ -1,0 +1,89 @@
+:- module(ev3dev_robot_state,
+          [ robot/4,                    % ?WheelDiameter, ?Axle, ?Left, ?Right
+            robot_set/4,                % -WheelDiameter, -Axle, -Left, -Right
+            robot_description/1,        % -Robot
+            store_robot/2,              % +Robot, +Built
+            drive_default/2,            % ?Name, ?Value
+            store_drive_default/2       % +Name, +Value
+          ]).
+:- use_module('../run/brick', [brick/1]).
+:- use_module('../explain/hints', [fail_because/1]).
+
+/** <module> The robot that is set
+*/
+
+:- dynamic
+    described/3,                        % Brick, Robot, Built
+    default/3.                          % Brick, Name, Value
+
+:- multifile ev3dev_brick:forget/1.
+
+ev3dev_brick:forget(Brick) :-
+    retractall(described(Brick, _, _)),
+    retractall(default(Brick, _, _)).
+
+%!  drive_default(?Name, ?Value) is nondet.
+%
+%   True if moves that are not given the option Name have this Value of it.
+
+drive_default(Name, Value) :-
+    brick(Brick),
+    usual(Name, Usual),
+    (   default(Brick, Name, Stored)
+    ->  Value = Stored
+    ;   Value = Usual
+    ).
+
+usual(use_gyro, true).
+usual(speed, 40).
+usual(acceleration, 50).
+
+%!  store_drive_default(+Name, +Value) is det.
+
+store_drive_default(Name, Value) :-
+    brick(Brick),
+    with_mutex(ev3dev_robot,
+               ( retractall(default(Brick, Name, _)),
+                 assertz(default(Brick, Name, Value)) )).
+
+%!  robot(?WheelDiameter, ?AxleLength, ?Left, ?Right) is semidet.
+%
+%   True if that is the robot that was set by set_robot/4.
+
+robot(WheelDiameter, AxleLength, Left, Right) :-
+    brick(Brick),
+    described(Brick, robot(WheelDiameter, AxleLength, Left, Right), _).
+
+%!  robot_set(-WheelDiameter, -AxleLength, -Left, -Right) is semidet.
+%
+%   Like robot/4, but explains why it fails.
+
+robot_set(WheelDiameter, AxleLength, Left, Right) :-
+    robot_set(robot(WheelDiameter, AxleLength, Left, Right), _).
+
+robot_set(Robot, Built) :-
+    brick(Brick),
+    (   described(Brick, Robot, Built)
+    ->  true
+    ;   fail_because(no_robot)
+    ).
+
+%!  robot_description(-Robot) is semidet.
+%
+%   The robot as the foreign library takes it: a term robot(Left, Right,
+%   LeftDiameter, RightDiameter, LeftInverted, RightInverted, AxleLength,
+%   AxleOffset). Fails like robot_set/4.
+
+robot_description(robot(Left, Right, DL, DR, IL, IR, AxleLength, Offset)) :-
+    robot_set(robot(_, AxleLength, Left, Right), built(DL-DR, IL-IR, Offset)).
+
+%!  store_robot(+Robot, +Built) is det.
+%
+%   Replace the robot by a term robot/4, and what else is known of it by
+%   built(LeftDiameter-RightDiameter, LeftInverted-RightInverted, AxleOffset).
+
+store_robot(Robot, Built) :-
+    brick(Brick),
+    with_mutex(ev3dev_robot,
+               ( retractall(described(Brick, _, _)),
+                 asserta(described(Brick, Robot, Built)) )).

@@ -1,0 +1,338 @@
+:- module(ev3dev_error_messages,
+          [ in_words//1                 % +Message
+          ]).
+:- use_module('../errors/errors',
+              [ in_pack/3, is_of_system/1, is_public/2, is_word/1,
+                named_called/2 ]).
+:- use_module(unknown_procedures,
+              [form_of/2, known_mistake/1, unqualified/2]).
+:- use_module('../native/native', [running_/1]).
+
+/** <module> What a person reads of an error
+
+The message of an error of the pack is one line: what was called, and what is
+wrong with it. If nobody catches an error of the pack, or one that passes
+through it, the lines after that show where in the program it happened:
+
+```
+ERROR: led/2: purple is not one of: off, on, red, green, ...
+ERROR:   in start/0 at square.pl:12
+```
+
+They are in the place of a backtrace, whose frames would be those of the pack,
+and which up to SWI-Prolog 9.2 cannot be printed for clauses whose layout an
+expansion has not kept. Prolog gives up frames of the program for their last
+calls; a line that is missing is such a call.
+
+No tracer opens, as Prolog's own would after an error in a goal with choice
+points or clean-ups, and in 9.2 after any second error. After `debug.`, or
+with the flag `access_level` set to `system`, all is as Prolog has it.
+*/
+
+:- multifile prolog:message//1.
+
+%   Set while the flag `debug_on_error` is false by this library's doing.
+
+:- thread_local quiet/0.
+
+prolog:message(unhandled_exception(Error)) -->
+    { is_located(Error, _, _) },
+    prolog:message(Error).
+% As Prolog words it where a tracer may open
+prolog:message(unhandled_exception(Error)) -->
+    { quiet },
+    in_words(Error).
+prolog:message(Error) -->
+    { is_located(Error, Plain, Places) },
+    in_words(Plain),
+    places(Places).
+prolog:message(error(Formal, Context)) -->
+    { nonvar(Context),
+      Context = context(Called, Text),
+      atom(Text),
+      is_ours(Called)
+    },
+    [ '~q: '-[Called] ],
+    about(Formal),
+    [ '~w'-[Text] ],
+    form(Formal, Called, Text).
+
+%   What is said of an item of the simulation begins with its verb.
+
+about(Formal) -->
+    { nonvar(Formal),
+      Formal = domain_error(possible_geometry, Item)
+    },
+    !,
+    [ '~w '-[Item] ].
+about(_) -->
+    [].
+
+%   The arguments may be in another order than a student believes.
+
+form(Formal, Called, Text) -->
+    { nonvar(Formal),
+      is_of_order(Formal, Text),
+      Called = _/Arity,
+      Arity > 1,
+      form_of(Called, Form)
+    },
+    !,
+    [ '; its form is ~w'-[Form] ].
+form(_, _, _) -->
+    [].
+
+is_of_order(type_error(Type, _), _) :-
+    memberchk(Type, [evaluable, number, integer, atom, text, [], character]).
+is_of_order(domain_error(_, Term), _) :-
+    atom(Term),
+    is_word(Term).
+is_of_order(instantiation_error, Text) :-
+    sub_atom(Text, 0, _, _, 'the ').
+
+%!  in_words(+Message, -Lines, ?Rest) is det.
+%
+%   Lines, up to Rest, are those of a Message, as print_message/2 words it.
+%   All versions have this, though none documents it.
+
+in_words(Message, Lines, Rest) :-
+    Translation =.. [translate_message, Message, Lines, Rest],
+    call('$messages':Translation).
+
+places([]) -->
+    [].
+places([place(Predicate, File, Line)|Places]) -->
+    [ nl, '  in ~q at ~w:~w'-[Predicate, File, Line] ],
+    places(Places).
+
+is_located(Error, error(Formal, context(Called, Text)), Places) :-
+    nonvar(Error),
+    Error = error(Formal, Context),
+    nonvar(Context),
+    Context = context(Called, At),
+    nonvar(At),
+    At = ev3dev_at(Text, Places).
+
+is_ours(Called) :-
+    nonvar(Called),
+    Called = Name/Arity,
+    atom(Name),
+    integer(Arity),
+    is_public(_, Called).
+
+                /*******************************
+                *       MOTORS THAT RUN        *
+                *******************************/
+
+%   After an abort or an error at the toplevel motors run on that the program
+%   has started and has not stopped: that is said then. A page, another thread
+%   or a program that ends says nothing.
+
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+user:message_hook(Message, Kind, Lines) :-
+    ev3dev_error_messages:ends_query(Message, Kind),
+    ev3dev_error_messages:running(Ports),
+    (   Kind == informational,
+        current_prolog_flag(verbose, silent)
+    ->  true
+    ;   print_message_lines(user_error, kind(Kind), Lines)
+    ),
+    print_message(warning, ev3dev(still_run(Ports))).
+
+ends_query('$aborted', _).
+ends_query(unwind(abort), _).
+ends_query(unhandled_exception(_), _).
+ends_query(error(_, _), error).
+
+running(Ports) :-
+    current_prolog_flag(break_level, _),
+    thread_self(main),
+    running_(Ports),
+    Ports \== [].
+
+prolog:message(ev3dev(still_run([Port]))) -->
+    !,
+    [ '~w still runs: stop.'-[Port] ].
+prolog:message(ev3dev(still_run(Ports))) -->
+    { atomic_list_concat(Ports, ', ', Listed) },
+    [ '~w still run: stop.'-[Listed] ].
+
+                /*******************************
+                *        THE EXCEPTION         *
+                *******************************/
+
+%   The hook changes the context of an error that nobody catches, as
+%   library(prolog_stack) does, whose clause comes after this one.
+
+located(error(Formal, Context), error(Formal, Located), Frame, Catcher) :-
+    tracer_may_open,
+    uncaught(Catcher, Frame),
+    \+ current_prolog_flag(access_level, system),
+    \+ current_prolog_flag(debug, true),
+    no_tracer_opens(Catcher),
+    words(Context, Called, Text),
+    (   prolog_frame_attribute(Frame, pc, PC)
+    ->  true
+    ;   PC = none
+    ),
+    walk(Frame, PC, 200, 3, Passed, Places),
+    (   Passed == true
+    ->  true
+    ;   is_forgotten(Formal)
+    ),
+    Located = context(Called, ev3dev_at(Text, Places)).
+
+is_forgotten(existence_error(procedure, Predicate0)) :-
+    unqualified(Predicate0, Predicate),
+    known_mistake(Predicate).
+
+%   The flag is looked at when this hook has succeeded or failed, and is set
+%   back when the next error comes. Each thread has its own.
+
+no_tracer_opens(Catcher) :-
+    (   Catcher == none,
+        current_prolog_flag(debug_on_error, true)
+    ->  set_prolog_flag(debug_on_error, false),
+        assertz(quiet)
+    ;   true
+    ).
+
+tracer_may_open :-
+    (   retract(quiet)
+    ->  set_prolog_flag(debug_on_error, true)
+    ;   true
+    ).
+
+uncaught(none, Frame) :-
+    \+ caught_outside(Frame).
+uncaught(Catcher, _) :-
+    integer(Catcher),
+    prolog_frame_attribute(Catcher, predicate_indicator,
+                           system:catch_with_backtrace/3).
+
+%   Before 7.6 the hook does not know of a catch/3 around native code that
+%   calls Prolog.
+
+:- if((current_prolog_flag(version, Version), Version < 70600)).
+
+caught_outside(Frame) :-
+    outside(Frame, Outside),
+    caught(Outside).
+
+outside(Frame, Outside) :-
+    prolog_frame_attribute(Frame, parent, Parent),
+    (   prolog_frame_attribute(Frame, top, true)
+    ->  Outside = Parent
+    ;   outside(Parent, Outside)
+    ).
+
+caught(Frame) :-
+    prolog_frame_attribute(Frame, predicate_indicator, Predicate),
+    memberchk(Predicate, [system:catch/3, catch/3]),
+    !.
+caught(Frame) :-
+    prolog_frame_attribute(Frame, parent, Parent),
+    caught(Parent).
+
+:- else.
+
+caught_outside(_) :-
+    fail.
+
+:- endif.
+
+words(Context, Called, Text) :-
+    (   var(Context)
+    ->  true
+    ;   Context = context(Called0, Text),
+        \+ ( nonvar(Called0), Called0 = prolog_stack(_) ),
+        \+ ( nonvar(Text), Text = ev3dev_at(_, _) ),
+        named_called(Called0, Called)
+    ).
+
+%   Passed is true if a frame is the pack's; Places are the innermost ones of
+%   the program, at most Most, in the Deep frames from Frame outwards. PC is
+%   where the clause of Frame's parent goes on.
+
+walk(Frame, PC, Deep, Most, Passed, Places) :-
+    (   Deep > 0,
+        Most > 0,
+        prolog_frame_attribute(Frame, parent, Parent)
+    ->  prolog_frame_attribute(Parent, predicate_indicator, Predicate),
+        (   in_pack(Predicate, _, _)
+        ->  Passed = true,
+            Places = Places1,
+            Most1 = Most
+        ;   \+ is_of_system(Predicate),
+            place(Parent, PC, Predicate, Place)
+        ->  Places = [Place|Places1],
+            Most1 is Most - 1
+        ;   Places = Places1,
+            Most1 = Most
+        ),
+        Deep1 is Deep - 1,
+        (   prolog_frame_attribute(Parent, pc, PC1)
+        ->  true
+        ;   PC1 = none
+        ),
+        walk(Parent, PC1, Deep1, Most1, Passed, Places1)
+    ;   Places = []
+    ).
+
+place(Frame, PC, Predicate, place(Shown, File, Line)) :-
+    prolog_frame_attribute(Frame, clause, Clause),
+    clause_property(Clause, file(Path)),
+    line(Clause, PC, Line),
+    (   Predicate = user:Shown
+    ->  true
+    ;   Shown = Predicate
+    ),
+    short(Path, File).
+
+%   Of the call, if Prolog can say so; else of the clause.
+
+line(Clause, PC, Line) :-
+    integer(PC),
+    current_module(prolog_stack),
+    Where = prolog_stack:prolog_stack_frame_property(
+                             frame(0, clause(Clause, PC), 0),
+                             location(_:Line)),
+    catch(Where, error(_, _), fail),
+    !.
+line(Clause, _, Line) :-
+    clause_property(Clause, line_count(Line)).
+
+short(Path, File) :-
+    working_directory(Directory, Directory),
+    (   atom_concat(Directory, File, Path)
+    ->  true
+    ;   File = Path
+    ).
+
+%   It stands before that of library(prolog_stack), which may be loaded
+%   already.
+
+:- if((current_prolog_flag(version, Version), Version >= 90107)).
+
+:- multifile prolog:prolog_exception_hook/5.
+:- dynamic prolog:prolog_exception_hook/5.
+:- initialization(
+       asserta((prolog:prolog_exception_hook(Error0, Error, Frame, Catcher,
+                                             _) :-
+                    ev3dev_error_messages:located(Error0, Error, Frame,
+                                                   Catcher))),
+       now).
+
+:- else.
+
+:- multifile user:prolog_exception_hook/4.
+:- dynamic user:prolog_exception_hook/4.
+:- initialization(
+       asserta((user:prolog_exception_hook(Error0, Error, Frame, Catcher) :-
+                    ev3dev_error_messages:located(Error0, Error, Frame,
+                                                   Catcher))),
+       now).
+
+:- endif.

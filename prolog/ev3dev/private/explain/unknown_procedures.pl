@@ -1,0 +1,238 @@
+:- module(ev3dev_unknown_procedures,
+          [ known_mistake/1,            % +Predicate
+            form_of/2,                  % +Predicate, -Form
+            unqualified/2               % ?Predicate0, -Predicate
+          ]).
+:- use_module('../errors/errors', [in_pack/3, is_public/2]).
+
+/** <module> A predicate that there is not
+
+A query that calls a predicate of a library of the pack that is not loaded
+says which one to load. One that calls a predicate of the pack with another
+number of arguments says what the arguments are. One that calls a predicate
+that is called otherwise in the pack says so. An error in a program does the
+same. Prolog would offer `ev3dev_sim:sim_start(room)` or another predicate as
+a correction, or say that the procedure is unknown, and list modules.
+
+Prolog's own offer to correct a name that is misspelt stays.
+*/
+
+:- multifile
+    user:expand_query/4,
+    prolog:message//1.
+:- dynamic user:expand_query/4.
+
+%   A query of the toplevel is looked at before Prolog corrects it, and before
+%   other clauses that expand it.
+
+:- initialization(
+       asserta((user:expand_query(Query, _, _, _) :-
+                    ev3dev_unknown_procedures:forgotten(Query, Predicate),
+                    throw(error(existence_error(procedure, Predicate), _)))),
+       now).
+
+forgotten(Query, Predicate) :-
+    callable(Query),
+    Query \== end_of_file,             % Ctrl-D
+    unknown_goal(Query, Goal),
+    functor(Goal, Name, Arity),
+    Predicate = Name/Arity,
+    % Some Prologs come without library(help): the user gets the pack's.
+    (   memberchk(Predicate, [help/1, apropos/1])
+    ->  help_file(own_help, File),
+        user:use_module(File),
+        fail
+    ;   known_mistake(Predicate)
+    ->  true
+    ;   \+ is_corrected(Goal),
+        meant(Predicate, _)
+    ),
+    !.
+
+%   True if Prolog offers another predicate that the user sees.
+
+is_corrected(Goal) :-
+    dwim_predicate(user:Goal, Other0),
+    strip_module(Other0, Module, Other),
+    \+ ( in_pack(Module:x/0, _, _),
+         functor(Other, Name, Arity),
+         \+ is_public(Module, Name/Arity) ),
+    functor(Goal, _, Arity1),
+    functor(Other, _, Arity1),
+    !.
+
+%!  known_mistake(+Predicate) is semidet.
+%
+%   True if Predicate is one of a library that is not loaded, or is one of the
+%   pack but for the number of its arguments.
+
+known_mistake(Predicate) :-
+    library_of(Predicate, _),
+    !.
+known_mistake(Name/_) :-
+    ask(signatures, arities(Name, _)).
+
+%!  form_of(+Predicate, -Form) is semidet.
+%
+%   Form is Predicate with the names of its arguments, as in
+%   `motor_run(Port, Speed)`.
+
+form_of(Predicate, Form) :-
+    ask(signatures, form(Predicate, Form)).
+
+meant(Predicate, Predicates) :-
+    ask(signatures, meant(Predicate, Predicates)).
+
+%   Goal is a call in Query of what the user has not defined or imported.
+
+unknown_goal(Goal, _) :-
+    \+ callable(Goal),
+    !,
+    fail.
+unknown_goal(_:_, _) :-
+    !,
+    fail.
+unknown_goal(Goal, Unknown) :-
+    predicate_property(user:Goal, visible),
+    !,
+    predicate_property(user:Goal, meta_predicate(Modes)),
+    arg(Index, Modes, 0),
+    arg(Index, Goal, Part),
+    unknown_goal(Part, Unknown).
+unknown_goal(Goal, Goal).
+
+prolog:message(error(existence_error(procedure, Predicate0), Context)) -->
+    { is_plain(Context),
+      unqualified(Predicate0, Predicate),
+      library_of(Predicate, Library)
+    },
+    [ '~q is in library(ev3dev/~w), which is not loaded: first'-
+      [Predicate, Library], nl,
+      '  use_module(library(ev3dev/~w)).'-[Library]
+    ].
+prolog:message(error(existence_error(procedure, Predicate0), Context)) -->
+    { is_plain(Context),
+      unqualified(Predicate0, Predicate),
+      instead(Predicate, Said, Predicates),
+      where(Context, Where)
+    },
+    [ 'there is no ~q~w. ~w:'-[Predicate, Where, Said] ],
+    forms(Predicates).
+
+prolog:message(error(syntax_error(operator_expected), Where)) -->
+    { nonvar(Where),
+      text_of(Where, Text, Place),
+      \+ current_op(_, xfx, user:(~>)),
+      sub_string(Text, _, _, _, "~>")
+    },
+    [ '~wOperator expected: ~~> is one of library(ev3dev/rules), '-[Place],
+      'which is not loaded: first'-[], nl,
+      '  use_module(library(ev3dev/~w)).'-[rules]
+    ].
+
+%   Those of the same name, else those that may be meant.
+
+instead(Name/Arity, Said, Predicates) :-
+    (   ask(signatures, arities(Name, Predicates))
+    ->  (   Predicates = [_]
+        ->  Said = 'There is'
+        ;   Said = 'There are'
+        )
+    ;   functor(Goal, Name, Arity),
+        \+ is_corrected(Goal),
+        ask(signatures, meant(Name/Arity, Predicates))
+    ->  Said = 'Did you mean'
+    ).
+
+where(Context, Where) :-
+    (   nonvar(Context),
+        Context = context(_, Text),
+        atom(Text)
+    ->  format(atom(Where), ', ~w', [Text])
+    ;   Where = ''
+    ).
+
+forms([]) -->
+    [].
+forms([Predicate0|Predicates]) -->
+    { (   Predicate0 = Library-Predicate
+      ->  format(atom(Shown), '~q of library(ev3dev/~w)',
+                 [Predicate, Library])
+      ;   form_of(Predicate0, Shown)
+      ->  true
+      ;   format(atom(Shown), '~q', [Predicate0])
+      )
+    },
+    [ nl, '  ~w'-[Shown] ],
+    forms(Predicates).
+
+text_of(string(Text, _), Text, '').
+text_of(file(File, Line, Column, _), Text, Place) :-
+    catch(setup_call_cleanup(open(File, read, In),
+                             nth_line(Line, In, Text),
+                             close(In)),
+          error(_, _), fail),
+    format(atom(Place), '~w:~w:~w: ', [File, Line, Column]).
+
+%   The term that is wrong may go on for some lines.
+
+nth_line(Line, In, Text) :-
+    forall(between(2, Line, _), skip(In, 0'\n)),
+    read_pending(10, In, Lines),
+    atomic_list_concat(Lines, '\n', Text).
+
+read_pending(Count, In, Lines) :-
+    (   Count > 0,
+        \+ at_end_of_stream(In)
+    ->  read_line_to_codes(In, Codes),
+        atom_codes(Line, Codes),
+        Lines = [Line|Lines1],
+        Count1 is Count - 1,
+        read_pending(Count1, In, Lines1)
+    ;   Lines = []
+    ).
+
+is_plain(Context) :-
+    (   var(Context)
+    ->  true
+    ;   Context = context(Where, _),
+        \+ ( nonvar(Where), Where = prolog_stack(_) )
+    ).
+
+%!  unqualified(?Predicate0, -Predicate) is semidet.
+%
+%   Predicate is Name/Arity; Predicate0 is that, or has a module before it.
+
+unqualified(Predicate0, Predicate) :-
+    (   nonvar(Predicate0),
+        Predicate0 = _:Predicate
+    ->  true
+    ;   Predicate = Predicate0
+    ),
+    ground(Predicate),
+    Predicate = _/_.
+
+%   True if library(ev3dev/Library) is the one to load for Predicate.
+
+library_of(Predicate, Library) :-
+    ask(libraries, in_library(Library, Predicates)),
+    memberchk(Predicate, Predicates),
+    !.
+
+%   Call Goal of a file that is loaded when it is needed for the first time.
+
+ask(Name, Goal) :-
+    atom_concat(ev3dev_, Name, Module),
+    (   module_property(Module, file(_))
+    ->  true
+    ;   help_file(Name, File),
+        % In a saved program there may be no file.
+        catch(use_module(File, []), error(_, _), fail)
+    ),
+    call(Module:Goal).
+
+help_file(Name, File) :-
+    module_property(ev3dev_unknown_procedures, file(This)),
+    file_directory_name(This, Room),
+    file_directory_name(Room, Private),
+    atomic_list_concat([Private, '/help/', Name], File).
