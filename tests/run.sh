@@ -13,9 +13,9 @@
 # SWIPL names another Prolog, JOBS how many run at once (default: one for each
 # processor, and four that wait). A leftover choice point or any other warning fails
 # the run (before SWI-Prolog 9 a failed test alone). So does a job of which a process
-# computes for LIMIT seconds, 1800 by default, or which prints nothing and computes for
-# less than half a minute in ten minutes. No limit is about how long a job takes: that depends on the rest of the
-# machine. Hints (tests/behavior/test_hints.pl) are off, as tests make many calls that
+# computes for LIMIT seconds, 1800 by default, or which in ten minutes prints nothing and
+# neither computes nor waits for a processor for half a minute. No limit is about how long
+# a job takes: that depends on the rest of the machine. Hints (tests/behavior/test_hints.pl) are off, as tests make many calls that
 # fail.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -101,8 +101,8 @@ only_skipped() {
     [ -s "$1" ] && ! grep -qv '^skipped: ' "$1"
 }
 
-# A job that prints nothing and hardly computes for ten minutes waits for what will never come;
-# a server that it has started computes a little all the time
+# A job that prints nothing for ten minutes, and hardly computes or wants to, waits for what will
+# never come; a server that it has started computes a little all the time
 watch_idle() {
     trap - EXIT
     local -A since=() printed=() looks=()
@@ -113,7 +113,9 @@ watch_idle() {
             [ -n "$of" ] || continue
             now=$(ticks "$of")
             size=$(stat -c %s "${session%.session}.log")
-            if [ "$size" = "${printed[$of]:-}" ] && [ $((now - ${since[$of]})) -lt 3000 ]; then
+            # Less than before: a process has ended
+            if [ "$size" = "${printed[$of]:-}" ] && [ "$now" -ge "${since[$of]}" ] &&
+                [ $((now - ${since[$of]})) -lt 3000 ]; then
                 looks[$of]=$((${looks[$of]} + 1))
             else
                 since[$of]=$now printed[$of]=$size looks[$of]=0
@@ -126,11 +128,19 @@ watch_idle() {
     done
 }
 
-# ticks SESSION: processor time of all its processes
+# ticks SESSION: hundredths of a second that its processes have computed, and that their threads
+# have waited for a processor
 ticks() {
-    # shellcheck disable=SC2016
-    { cat /proc/[0-9]*/stat 2>/dev/null || true; } | sed 's/.*) //' |
-        awk -v session="$1" '$4 == session { all += $12 + $13 + $14 + $15 } END { print all+0 }'
+    local stat task
+    while read -r stat; do
+        for task in "/proc/${stat%% *}"/task/*/schedstat; do
+            cat "$task" 2>/dev/null || true
+        done
+        # What has ended, as its parent knows it
+        awk '{ print ($14 + $15) * 10000000, 0 }' <<<"${stat##*) }"
+    done < <(cat /proc/[0-9]*/stat 2>/dev/null |
+        awk -v session="$1" '{ rest = $0; sub(/.*\) /, "", rest); split(rest, of); if (of[4] == session) print }') |
+        awk '{ all += $1 + $2 } END { printf "%d\n", all / 10000000 }'
 }
 
 end_all() {

@@ -358,15 +358,17 @@ test(no_move_ends_with_a_motor_that_pushes,
                sim_wait(2),
                findall(S, ( motor_states(_, S), memberchk(running, S) ), Ss) )).
 test(in_the_mount_too, [condition(behaving(mount))]) :-
-    on(mount, ( set_robot(5.6, 10.6, outB, outC),
-                sim_pose(X0, Y0, H0),
-                set_pose(X0, Y0, H0),
-                go_cm(40, 15, []),
-                turn(30, -60, []),
-                arc_cm(40, 15, 60),
-                % On a busy computer the loop comes late, and the arcs that it
-                % counts are long.
-                pose_is_right(5, 10) )).
+    on_slow_mount(room, drives_well).
+
+drives_well :-
+    set_robot(5.6, 10.6, outB, outC),
+    sim_pose(X0, Y0, H0),
+    set_pose(X0, Y0, H0),
+    go_cm(40, 15, []),
+    turn(30, -60, []),
+    arc_cm(40, 15, 60),
+    pose_is_right(5, 10).
+
 test(endless_ones_go_on_until_stopped,
      [forall(member(Move-Radius,
                     [ arc(30, 20)-20, arc(30, -20)-(-20), arc(-30, 20)-20,

@@ -132,6 +132,7 @@ class Run:
         self.delays = {}
         self.popen = None
         self.leader = None
+        self.reads = None
 
     # Processes
 

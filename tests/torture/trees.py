@@ -128,6 +128,15 @@ class Mount:
         self.server.stdin.write(f"{goal}.\n".encode())
         self.server.stdin.flush()
 
+    def ask(self, goal):
+        """The server has called the goal, and all that it was told before."""
+        done = self.root.parent / "done"
+        self.tell(f"{goal}, open('{done}', write, S), close(S)")
+        deadline = time.monotonic() + GUARD_S
+        while not done.exists() and self.server.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+        done.unlink(missing_ok=True)
+
     def motors(self):
         """The ports of the motors, each with its directory."""
         return [(first_line(folder / "address").replace("ev3-ports:", ""), folder)
@@ -135,7 +144,8 @@ class Mount:
 
     def fresh(self, _moving):
         """All motors are there and rest, the robot is where it was."""
-        self.tell("forall(member(Port-Type, [outA-m, outB-l, outC-l]), (atomic_list_concat(['lego-ev3-', Type, "
+        # Only now: a wire that was pulled at the end of the last run is pulled before
+        self.ask("forall(member(Port-Type, [outA-m, outB-l, outC-l]), (atomic_list_concat(['lego-ev3-', Type, "
                   "'-motor'], Motor), ignore(sim_plug(Port, Motor))))")
         deadline = time.monotonic() + GUARD_S
         while len(list(self.root.glob("tacho-motor/*"))) < 3 and time.monotonic() < deadline:
