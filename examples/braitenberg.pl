@@ -4,7 +4,7 @@
 %
 % The left eye is a color sensor at in2, the left wheel a motor at outB; the
 % right eye is at in3, the right wheel at outC. Light and speed both go from 0
-% to 100. Stop a vehicle by Ctrl-C.
+% to 100. Stop a vehicle with Ctrl-C.
 %
 % After Valentino Braitenberg, Vehicles: Experiments in Synthetic Psychology.
 
@@ -35,7 +35,7 @@ vehicle(Name, Memory0) :-
 %   Computes the speeds of the wheels from the light at the eyes. Vehicles 1
 %   to 4 remember nothing.
 
-% Vehicle 1 gets around: the more light, the faster.
+% Vehicle 1 drives straight: the more light, the faster.
 wires(alive, eyes(Left, Right), wheels(Speed, Speed), M, M) :-
     Speed is (Left + Right) / 2.
 
@@ -47,7 +47,7 @@ wires(fear, eyes(Left, Right), wheels(Left, Right), M, M).
 wires(aggression, eyes(Left, Right), wheels(Right, Left), M, M).
 
 % Vehicle 3a: light slows down the wheel on its side, so that it turns toward
-% the light and comes to rest before it.
+% the light and stops in front of it.
 wires(love, eyes(Left, Right), wheels(SpeedLeft, SpeedRight), M, M) :-
     inhibited(Left, SpeedLeft),
     inhibited(Right, SpeedRight).

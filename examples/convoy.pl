@@ -1,5 +1,5 @@
-% Three robots in a column: the first one drives as it likes, and the others
-% keep their distance.
+% Three robots in a column: the first one drives at changing speeds, and the
+% others keep their distance.
 %
 %   ?- start.
 %
@@ -48,7 +48,7 @@ lead(Speed, Seconds) :-
 send_both(Message) :-
     forall(member(To, [second, third]), robot_send(To, Message)).
 
-%   25 cm to the one ahead; each cm more or less is 2 percent.
+%   It keeps 25 cm; each cm more or less changes the speed by 2 percent.
 
 keep_up(Speed0) :-
     (   robot_receive(first, Message, [timeout(0)])

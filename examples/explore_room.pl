@@ -1,5 +1,5 @@
-% A robot that explores a room of which it knows nothing, draws the map, and
-% drives home by it.
+% A robot that explores an unknown room, draws a map, and uses it to drive
+% home.
 %
 %   ?- start.
 %
@@ -17,7 +17,7 @@ start :-
 
 %!  start(+File) is semidet.
 %
-%   File is that of the picture and of the world, without its extension.
+%   File is the name of the picture and of the world, without extension.
 
 start(File) :-
     set_robot(5.6, 10.6, outB, outC),

@@ -3,8 +3,8 @@
 %
 %   ?- start(ssh('robot@ev3dev.local'), [3, 3]).
 %
-% Without a brick, a simulated robot in another process, where the pack is
-% installed:
+% Without a brick this starts a simulated robot in another process, if the
+% pack is installed:
 %
 %   ?- start.
 %
@@ -27,7 +27,7 @@ start(Where, Goal) :-
 
 %!  drive(+Name, +Goal) is semidet.
 %
-%   Lead the far brick Name to a cell. It stands in the cell [0,0] and looks
+%   Lead the far brick Name to a cell. It starts in the cell [0,0] and looks
 %   along y.
 
 drive(Name, Goal) :-

@@ -34,7 +34,7 @@ station([1, 2, 3, 4]).
 
 prim_action(go_on).             % follow the tape to the next station
 prim_action(find_tape).
-prim_action(signal).            % somebody is to come
+prim_action(signal).            % ask somebody to come
 
 exog_action(arrive(S)) :- domain(S, station).
 exog_action(lose_tape).

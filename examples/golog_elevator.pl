@@ -2,10 +2,10 @@
 % of a turn for each floor, and the keys of the brick are the call buttons:
 % down, left, enter, right, up, from the ground floor on.
 %
-%   ?- start.             % serves one call after the other
-%   ?- start(smart).      % plans the shortest way whenever a call comes
+%   ?- start.             % serves one call after the other ?- start(smart).
+%   % plans the shortest path at each call
 %
-% The program never ends: stop it by Ctrl-C. The motor stops then.
+% The program never ends: stop it with Ctrl-C. The motor stops then.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/golog)).

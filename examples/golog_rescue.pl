@@ -4,7 +4,7 @@
 %   ?- sim_start(grid), sim_add(patch(red, [48-28, 72-28, 72-52, 48-52])).
 %   ?- start.
 %
-% It knows nothing about obstacles at first. It plans the shortest way to a
+% It knows nothing about obstacles at first. It plans the shortest path to a
 % cell that it has not visited, as if unknown cells were free. Before it
 % enters an unknown cell it looks; if the cell is blocked, it plans again.
 
@@ -43,7 +43,7 @@ prim_fluent(at).
 rel_fluent(visited(_)).
 rel_fluent(blocked(_)).         % not known before a look
 rel_fluent(found).
-rel_fluent(surprise).           % the plan will not do
+rel_fluent(surprise).           % the plan is wrong
 
 initially(at, 0-0).
 initially(visited(C), V) :-
@@ -79,7 +79,7 @@ proc(trip(How),
      [ unset(surprise),
        gexec(neg(surprise), search(way(How, 1))) ]).
 
-% The shortest way: one of at most Cells, else one of more
+% The shortest path: one of at most Cells, else a longer one
 
 proc(way(How, Cells),
      ndet(steps(How, Cells),

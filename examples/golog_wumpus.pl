@@ -1,7 +1,7 @@
 % The cave of the wumpus, 4 by 4 cells of 30 cm: one cell has the wumpus, some
-% have a pit, and both are the end of a robot. It smells in the cells beside
-% the wumpus, there is a draft in those beside a pit, and the gold glitters in
-% its own.
+% have a pit, and both destroy a robot. It smells in the cells beside the
+% wumpus, there is a draft in the cells beside a pit, and the gold glitters in
+% its own cell.
 %
 %   ?- cave(0-2, [2-0, 2-2], 1-2, Cave), sim_start(Cave), start.
 %
@@ -100,7 +100,7 @@ proc(follow(Way), for(c, Way, go(c))).
 proc(there(new, C), new(C)).
 proc(there(home, C), C = 0-0).
 
-%   Way is a shortest one from At over safe cells. They are looked at in the
+%   Way is a shortest path from At over safe cells. The cells are tried in the
 %   order of their distance.
 shortest(At, Where, Way) :-
     now(History),
@@ -139,7 +139,7 @@ sees(Heading, Port, Name, S) :-
     ;   S = 0
     ).
 
-% The cave, for the simulator: what stands above does not look at it.
+% The cave, for the simulator. The clauses above never look at it.
 
 cave(Wumpus, Pits, Gold, [ bounds(-15, -15, 105, 105), start(0, 0, 0)
                          | Patches ]) :-

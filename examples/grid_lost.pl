@@ -1,6 +1,6 @@
-% The grid of the paper's section 6, and a robot in one of its cells, which it
-% does not know. It knows the map. It looks and moves until only one cell is
-% left, and goes to its goal from there.
+% A robot on the grid of the paper's section 6. It knows the map, but not its
+% own cell. It looks and moves until only one cell is possible, and then goes
+% to its goal.
 %
 %   ?- start([0, 0]).
 %
@@ -30,7 +30,7 @@ start(Goal) :-
     set_grid([start(Cell, Direction), obstacles(Obstacles)]),
     plan_and_go_to(Goal, _).
 
-%   How many states are still probable.
+%   The number of states that are still probable.
 
 show(Free, Belief) :-
     grid_belief_entropy(Belief, Bits),

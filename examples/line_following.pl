@@ -5,7 +5,7 @@
 % The sensor points at the floor. It is at in2, or else at any port. Above the
 % edge, half of its light comes back. The deviation from this value, its sum
 % over time and its rate of change give the rate at which the robot turns: a
-% PID control. Stop it by Ctrl-C: the wheels always stop at the end.
+% PID control. Stop it with Ctrl-C: the wheels always stop at the end.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).

@@ -1,6 +1,6 @@
-% A robot that knows its room, but not where in it it is. It finds out, and
-% drives from place to place by the map. Carry it elsewhere on the way: it
-% notices, and finds out again.
+% A robot that knows its room, but not its place. It finds its place, and
+% drives from place to place by the map. If you carry it away, it notices that
+% and finds its place again.
 %
 %   ?- start.
 %   ?- start([60-60, 240-200]).
@@ -26,7 +26,7 @@ start(Places) :-
     forall(member(Place, Places), visit(Place)),
     localize_stop.
 
-%   Where two places look alike it sees the difference from elsewhere.
+%   If two places look alike, it sees the difference from another place.
 
 find_out :-
     localize_scan([turns(2), reason(_)]),
@@ -51,7 +51,7 @@ visit(Place) :-
     !,
     legs(Points, Place).
 
-%   In small steps, so that it soon sees that it is lost.
+%   It drives in small steps, so that it soon notices that it is lost.
 
 legs([], X-Y) :-
     format("at ~w, ~w~n", [X, Y]).

@@ -1,6 +1,5 @@
-% Two robots map a room: each looks around where it stands, goes on, and looks
-% around again. The scout sends what it sees to the other one, which draws the
-% map of both.
+% Two robots map a room: each looks around, drives on, and looks around again.
+% The scout sends what it sees to the other one, which draws one map.
 %
 %   ?- start.
 %

@@ -3,7 +3,7 @@
 %   ?- start.
 %
 % It needs two large motors and, at any port, an ultrasonic sensor that points
-% ahead; a gyro makes its turns exact. Stop it by Ctrl-C: the wheels always
+% ahead; a gyro makes its turns exact. Stop it with Ctrl-C: the wheels always
 % stop at the end.
 
 :- use_module(library(ev3dev)).

@@ -1,5 +1,5 @@
-% A program as students of PLNXT wrote them: the robot looks around with
-% triggers, and a loop asks the light sensor where it is.
+% A program in the style of PLNXT's students: the robot looks around with
+% triggers, and a loop reads the light sensor.
 %
 %   ?- start.
 %

@@ -1,14 +1,14 @@
-% leJOS's bumper car: it drives on, and turns aside where it meets a wall.
+% leJOS's bumper car: it drives on, and turns away from walls.
 %
 %   ?- start.
 %
 % In leJOS this is two classes with takeControl, action and suppress, and an
-% Arbitrator. Here takeControl is the guard, and nothing is written for
-% suppress: a move that is left stops by itself. The first rule is the most
+% Arbitrator. Here takeControl is the guard, and suppress needs no code: a
+% move that is interrupted stops by itself. The first rule is the most
 % important; in leJOS the last behavior is.
 %
 % It needs two large motors and an ultrasonic sensor that points ahead; a
-% touch sensor is of use, too. Stop it by Ctrl-C.
+% touch sensor helps, too. Stop it with Ctrl-C.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/rules)).

@@ -3,7 +3,7 @@
 %   ?- start.
 %
 % Two color sensors are its eyes, the left one at in2, the right one at in3.
-% An ultrasonic sensor points ahead. Stop it by Ctrl-C.
+% An ultrasonic sensor points ahead. Stop it with Ctrl-C.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
@@ -14,11 +14,11 @@ avoid :: us_dist_cm(_, D), D < 20 ~> turn(30).
 % The action waits, so it is not interrupted by seek and search.
 flee  :: dazzled ~> tone(880, 100), turn(40, 180), go_cm(40, 60).
 
-% steer/2 does not wait. So to_light/2 is called again when Left or Right is
-% another one.
+% steer/2 does not wait. So to_light/2 is called again when Left or Right
+% changes.
 seek  :: eyes(Left, Right), Left + Right > 14 ~> to_light(Left, Right).
 
-% What is in a list takes turns: turn for 4 s, go on for 2 s, and again.
+% The actions of a list take turns: turn for 4 s, drive for 2 s, and again.
 search :: true ~> [turn(20):4, go(30):2].
 
 eyes(Left, Right) :-

@@ -1,14 +1,13 @@
-% A robot that follows the left edge of a black line, and stops for what
-% stands in its way until it is gone.
+% A robot that follows the left edge of a black line, and waits while
+% something is in its way.
 %
 %   ?- start.
 %
-% Following the line is one action that never ends, a PID control. A rule
-% above it suppresses it, and it begins again afterward: it knows nothing of
-% rules.
+% The robot follows the line by one endless action, a PID control. A rule
+% above interrupts it, and later it begins again: it knows nothing of rules.
 %
 % It needs a color sensor that points at the floor, at in2, and an ultrasonic
-% sensor that points ahead. Stop it by Ctrl-C.
+% sensor that points ahead. Stop it with Ctrl-C.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).

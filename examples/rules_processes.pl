@@ -5,7 +5,7 @@
 % The button `enter` orders the robot to drive up to the wall ahead. There it
 % waits for `up`, which says that it is unloaded, and comes back. `down` calls
 % it back at any time. It needs two large motors and an ultrasonic sensor that
-% points ahead. Stop it by Ctrl-C.
+% points ahead. Stop it with Ctrl-C.
 %
 % After the processes of "Programming Autonomous Robots in Curry" by Michael
 % Hanus and Klaus Hoeppner.
@@ -14,7 +14,7 @@
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/rules)).
 
-% Recall stands first, so it interrupts the others. state(start) is at home.
+% Recall comes first, so it interrupts the others. state(start) is at home.
 recall :: received(recall), state(S), away(S) ~> set_state(back).
 order  :: state(start), received(order)       ~> set_state(out).
 drive  :: state(out)   ~> until(wall_ahead, go(30)), set_state(there).
@@ -28,8 +28,8 @@ wall_ahead :-
     us_dist_cm(_, Distance),
     Distance < 30.
 
-%   The buttons send messages. While the robot acts, too, as all runs in one
-%   thread and is looked at every 20 ms.
+%   The buttons send messages, also while the robot acts, because conditions
+%   are checked every 20 ms in the same thread.
 message(enter, order).
 message(up,    unloaded).
 message(down,  recall).

@@ -4,7 +4,7 @@
 %
 % The ring is black and what is around it is white. Two color sensors look
 % down at its front, the left one at in2, the right one at in3. An ultrasonic
-% sensor points ahead. Stop it by Ctrl-C.
+% sensor points ahead. Stop it with Ctrl-C.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/rules)).

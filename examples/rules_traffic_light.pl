@@ -4,15 +4,14 @@
 %   ?- start.
 %
 % The brick's two lights are its lamps. A color sensor looks around. Stop it
-% by Ctrl-C.
+% with Ctrl-C.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/rules)).
 
-% Each rule is again a machine with rules of its own. When night falls, the
-% machine of the day is left, whichever state it is in; it begins with red
-% again. A machine never returns, so it takes while(dark) to end that of the
-% night.
+% Each rule is again a machine with its own rules. At night the machine of the
+% day ends, in any state; later it begins with red again. A machine never
+% returns, so while(dark) is needed to end the machine of the night.
 night, while(dark) :: dark ~> behave([blink]).
 day               :: true ~> behave([red, red_amber, green, amber]).
 

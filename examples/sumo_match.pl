@@ -2,7 +2,7 @@
 %
 %   ?- match(Winner).
 %
-% The one whose middle leaves the ring has lost. The one in the east is
+% A robot loses when its middle leaves the ring. The robot in the east is
 % heavier, and its motors are stronger.
 
 :- use_module(library(ev3dev)).
@@ -27,8 +27,7 @@ start :-
 match(Winner) :-
     match(Winner, []).
 
-%   Options are those of sim_start/2. Nobody wins who has not won in two
-%   minutes.
+%   Options are those of sim_start/2. After two minutes nobody wins.
 
 match(Winner, Options) :-
     sumo_robot(1.6, 15, Heavy),

@@ -3,7 +3,7 @@
 %   ?- thermometer.
 %
 % It needs, at any port, a sensor that temperature/2 reads, for example LEGO's
-% for the NXT. Stop it by Ctrl-C.
+% for the NXT. Stop it with Ctrl-C.
 
 :- use_module(library(ev3dev)).
 

@@ -1,4 +1,4 @@
-% A square of 60 cm. Say `start.`, and the robot drives it.
+% A square of 60 cm. Type `start.`, and the robot drives it.
 
 :- use_module(library(ev3dev)).
 

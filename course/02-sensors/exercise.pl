@@ -1,4 +1,4 @@
-% A lamp somewhere in a dim hall, ahead of the robot and to a side.
+% A lamp in a dark hall, ahead of the robot and to one side.
 
 :- use_module(library(ev3dev/exercise)).
 

@@ -16,5 +16,6 @@ drive :-
     drive.
 
 %   Each eye drives the wheel on its own side. What does the vehicle do? What
-%   if the wires cross? It is dim where the lamp is far: does it move at all?
+%   if the wires cross? Far from the lamp it is dark: does the vehicle move at
+%   all?
 wires(Left, Right, Left, Right).

@@ -1,6 +1,5 @@
-% A robot that finds its way over a grid that it does not know, from the cell
-% [0, 0] to [7, 7]. It looks before each move; what it sees is in
-% obstructed/1.
+% A robot that finds its way over an unknown grid, from the cell [0, 0] to [7,
+% 7]. It looks before each move, and remembers obstacles in obstructed/1.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/grid)).

@@ -1,6 +1,6 @@
 % A waiter: the buttons call it to the tables, and it takes no order twice.
-% Table up is at 100, 160, right at 160, 100, and left at 40, 100; its place
-% is in the middle.
+% Table up is at 100, 160, right at 160, 100, and left at 40, 100; the robot
+% starts in the middle.
 
 :- use_module(library(ev3dev/exercise)).
 :- use_module(library(ev3dev/sim)).
@@ -9,7 +9,7 @@ exercise(golog, [seconds(90), noise(true), seeds(1-6), cpu(30)]).
 
 world(_, [bounds(0, 0, 200, 200), start(100, 100, 0)]).
 
-%   Two tables call in each run, the second while the robot is under way.
+%   Two tables call in each run, the second while the robot drives.
 happens(Seed) :-
     calls(Seed, First, Second),
     sim_press(First, [after(2), for(0.3)]),

@@ -9,7 +9,7 @@ start :-
     set_pose(100, 100, 0),
     golog(waiter, []).
 
-% What there is: three tables, and a robot that is at one of them or at home.
+% The domain: three tables, and a robot that is at one of them or at home.
 
 place(up, 100-160).
 place(right, 160-100).
@@ -32,14 +32,14 @@ rel_fluent(waits(T)) :-
 initially(at, home).
 initially(waits(_), false).
 
-% What actions need, and what they change. serve/1 is still to be described.
+% What actions need, and what they change. serve/1 is missing.
 
 poss(go(_), true).
 
 causes_val(go(P), at, P, true).
 causes_true(call(T), waits(T), true).
 
-% The program. What is to come before the robot waits?
+% The program. What must come before the robot waits?
 
 proc(waiter,
      prioritized_interrupts(

@@ -1,5 +1,5 @@
 % The post: a track with four stations, each a piece of colored floor on the
-% right of the track. The robot is to call them out as it passes, for two
+% right of the track. The robot must call them out when it passes, for two
 % rounds; the faster, the better.
 
 :- use_module(library(ev3dev/exercise)).
@@ -23,7 +23,7 @@ score(partial(2), 'two rounds in less than 150 s; all points for 100 s',
     duration(Seconds),
     Share is (150-Seconds)/50.
 
-%   How many stations were called out until a wrong one was.
+%   The number of stations that were called out before a wrong one.
 in_order(Count) :-
     findall(Text, said(Text), Said),
     rounds(Stations),

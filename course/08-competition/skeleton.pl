@@ -23,7 +23,7 @@ drive(Last) :-
     drive(Last).
 
 station(red) :-
-    col_color(in3, 5).                  % what of the other three?
+    col_color(in3, 5).                  % and the other three?
 
 control :-
     col_reflect(in2, Light),
