@@ -1,7 +1,8 @@
 //! What is done in the handlers of signals themselves.
+use crate::events::{self, is_child};
 use crate::latch::{self, Reason};
 use crate::stack::own_handlers_stack;
-use crate::{crash, kept, watchdog};
+use crate::{crash, lines};
 use nix::errno::Errno;
 use nix::libc::{self, c_int, c_void, siginfo_t};
 use std::mem::zeroed;
@@ -183,7 +184,7 @@ extern "C" fn handle(signal: c_int, info: *mut siginfo_t, context: *mut c_void) 
         }
     } else if STANDING.contains(&signal) {
         stand(signal);
-    } else if watchdog::is_child() && is_sent(info) {
+    } else if is_child() && is_sent(info) {
         // Prolog's handler would make a copy of the program of what is to be another one.
         do_default(signal);
     } else {
@@ -209,14 +210,14 @@ pub(crate) fn stop_for(reason: Reason) -> bool {
     latch::set(reason);
     // Before the first stop: who is done then is stopped by it.
     let is_any_starting = latch::is_any_starting();
-    let mut any = kept::stop();
+    let mut any = lines::stop();
     if is_any_starting {
         for _ in (0..WAITS).take_while(|_| latch::is_any_starting()) {
             let time = libc::timespec { tv_sec: 0, tv_nsec: 1_000_000 };
             // Safety: waits only.
             unsafe { libc::nanosleep(&raw const time, null_mut()) };
         }
-        any |= kept::stop();
+        any |= lines::stop();
     }
     any
 }
@@ -224,11 +225,11 @@ pub(crate) fn stop_for(reason: Reason) -> bool {
 /// Gives a signal to the watchdog; `false` if there is none.
 fn withhold(signal: c_int) -> bool {
     let is_new = WITHHELD.fetch_or(bit(signal), Ordering::AcqRel) & bit(signal) == 0;
-    let is_told = !is_new || watchdog::tell(watchdog::SIGNAL, signal);
-    if !is_told {
+    let is_sent = !is_new || events::send(events::SIGNAL, signal);
+    if !is_sent {
         look_at(signal);
     }
-    is_told
+    is_sent
 }
 
 /// The watchdog looks at a signal: another one is for it, too.
@@ -299,7 +300,7 @@ fn stand_alone(signal: c_int) {
         }
     }
     // What the driver knows of the motors has to follow.
-    if !stopped || !watchdog::tell(watchdog::CONTINUED, signal) {
+    if !stopped || !events::send(events::CONTINUED, signal) {
         latch::lift(Reason::Standing);
     }
 }

@@ -13,15 +13,40 @@
 //!
 //! Prolog's own end, as by halt/0, is the affair of `prolog/ev3dev/private/run/halt.pl`.
 //!
+//! A signal that asks the program to end goes through these states:
+//!
+//! ```text
+//!            handler: SIGNAL           asker: GOES_ON
+//!   nothing ----------------> asked ------------------> nothing; Prolog gets the signal
+//!      ^                      |   |
+//!      |              500 ms  |   |  asker: ENDS, motors are stopped
+//!      |                      v   v
+//!      |  asker: GOES_ON   late   ending; Prolog gets the signal
+//!      `------------------- |       |
+//!   the latch is lifted     |       |  2 s after the signal
+//!                           v       v
+//!                     the watchdog ends the process
+//! ```
+//!
+//! *Late*: the motors are stopped, and Prolog gets the signal without an answer.
+//!
+//! Who knows whom, from below: [`latch`], `lines` (the motors that run, as text) and `events` (two
+//! bytes for the watchdog) know nobody; `crash`, `handlers`, `survivor`; then `kept` (a motor of
+//! the driver) and `watchdog`, which is told, and looks.
+//!
 //! Where there are no signals there is the latch alone.
 #![cfg_attr(unix, expect(unsafe_code, reason = "handlers of signals, and processes, are C's"))]
 #[cfg(unix)]
 mod crash;
 #[cfg(unix)]
+mod events;
+#[cfg(unix)]
 mod handlers;
 #[cfg(unix)]
 mod kept;
 pub mod latch;
+#[cfg(unix)]
+mod lines;
 #[cfg(not(unix))]
 mod none;
 #[cfg(unix)]
@@ -32,7 +57,9 @@ mod survivor;
 mod watchdog;
 
 #[cfg(unix)]
-pub use kept::{Kept, leave};
+pub use kept::Kept;
+#[cfg(unix)]
+pub use lines::leave;
 #[cfg(not(unix))]
 pub use none::{Asked, halts, is_to_halt, leave, own_handlers_stack, stop_for, survive, watch};
 #[cfg(unix)]

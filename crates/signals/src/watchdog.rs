@@ -5,15 +5,17 @@
 //! It has the *asker* ask Prolog whether a signal will end the program, and stop the motors
 //! if it will. Then Prolog gets the signal. Whatever Prolog and the asker do: two seconds
 //! after the signal the process has ended.
+use crate::events::{
+    self, CONTINUED, ENDS, FORKED, GOES_ON, HALTS, IS_TO_HALT, MAIN_IS_OVER, SIGNAL, send,
+};
 use crate::latch::{self, Reason};
-use crate::{crash, handlers, kept, survivor};
+use crate::{crash, handlers, kept, lines, survivor};
 use nix::libc::{self, c_int, c_void};
 use nix::sys::signal::{SigSet, SigmaskHow};
 use std::io::{self, Read, Write};
 use std::os::fd::AsRawFd;
 use std::os::unix::net::UnixStream;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How long Prolog may take to end the process.
@@ -28,27 +30,6 @@ const LOOK: Duration = Duration::from_millis(100);
 const SOON: Duration = Duration::from_millis(1);
 const JUST: Duration = Duration::from_millis(20);
 
-/// What the watchdog is told: each is followed by the number of a signal.
-pub(crate) const SIGNAL: u8 = b'S';
-pub(crate) const CONTINUED: u8 = b'C';
-const ENDS: u8 = b'E';
-const GOES_ON: u8 = b'G';
-const HALTS: u8 = b'H';
-const MAIN_IS_OVER: u8 = b'M';
-const FORKED: u8 = b'F';
-const IS_TO_HALT: u8 = b'A';
-
-/// The way to the watchdog.
-static WATCHDOG: OnceLock<UnixStream> = OnceLock::new();
-
-/// Whether this is a child of the process that has the threads.
-static IS_CHILD: AtomicBool = AtomicBool::new(false);
-
-/// Whether this is a child of fork(2), which has no motors of its own yet.
-pub(crate) fn is_child() -> bool {
-    IS_CHILD.load(Ordering::Relaxed)
-}
-
 /// What the asker asks and does, without knowing Prolog.
 pub struct Asked {
     /// Whether a signal, as `term`, will end the program; the second argument is whether
@@ -59,23 +40,16 @@ pub struct Asked {
     pub stop: fn(),
 }
 
-/// Tells the watchdog something; `false` if there is none. For handlers of signals, too.
-pub(crate) fn tell(what: u8, signal: c_int) -> bool {
-    let number = u8::try_from(signal).unwrap_or_default();
-    let told = |mut way: &UnixStream| way.write_all(&[what, number]).is_ok();
-    !is_child() && WATCHDOG.get().is_some_and(told)
-}
-
 /// Prolog ends the program because of a signal, as `term`: the process ends within
 /// [`PATIENCE`].
 pub fn halts(signal: &str) {
-    tell(HALTS, number(signal));
+    send(HALTS, number(signal));
 }
 
 /// Prolog has begun to halt, or its halt was canceled. Its clean-ups may wait for ever, as for
 /// a stream that another thread reads from: after [`PATIENCE`] no motor starts.
 pub fn is_to_halt(halts: bool) {
-    tell(IS_TO_HALT, halts.into());
+    send(IS_TO_HALT, halts.into());
 }
 
 /// Takes the signals that end a program, from now on, unless it does already.
@@ -85,7 +59,7 @@ pub fn is_to_halt(halts: bool) {
 pub fn watch(asked: Asked) -> io::Result<()> {
     static TAKING: Mutex<()> = Mutex::new(());
     let _taking = TAKING.lock().unwrap_or_else(PoisonError::into_inner);
-    if WATCHDOG.get().is_some() {
+    if events::has_watchdog() {
         return Ok(());
     }
     let (read, write) = UnixStream::pair()?;
@@ -101,15 +75,16 @@ pub fn watch(asked: Asked) -> io::Result<()> {
         .and_then(|()| spawn("ev3-signals", Box::new(move || Watchdog::new(read, answers).run())));
     before.thread_set_mask()?;
     spawned?;
-    let _ = WATCHDOG.set(write); // under the lock it was not set
+    events::send_to(write);
     handlers::take_all();
     // Safety: the functions do only what may be done there.
     unsafe {
         libc::pthread_atfork(None, Some(has_forked), Some(forked));
         if libc::syscall(libc::SYS_gettid) == libc::c_long::from(libc::getpid()) {
+            static IS_SET: u8 = 1;
             let mut key = 0;
             if libc::pthread_key_create(&raw mut key, Some(main_is_over)) == 0 {
-                libc::pthread_setspecific(key, (&raw const IS_CHILD).cast());
+                libc::pthread_setspecific(key, (&raw const IS_SET).cast());
             }
         }
     }
@@ -118,19 +93,20 @@ pub fn watch(asked: Asked) -> io::Result<()> {
 
 /// After fork(2): shell/1 does so before it takes Ctrl-Z.
 unsafe extern "C" fn has_forked() {
-    tell(FORKED, 0);
+    send(FORKED, 0);
 }
 
 /// In a child of fork(2), which has neither thread: its signals go to Prolog.
 unsafe extern "C" fn forked() {
-    IS_CHILD.store(true, Ordering::Relaxed);
+    events::be_child();
+    lines::forked();
     kept::forked();
     survivor::forked();
 }
 
 /// The main thread ends, and the process does not, as after `thread_exit/1`.
 unsafe extern "C" fn main_is_over(_: *mut c_void) {
-    tell(MAIN_IS_OVER, 0);
+    send(MAIN_IS_OVER, 0);
 }
 
 /// What the asker does: the watchdog tells it what it is told itself.
@@ -144,7 +120,7 @@ fn answer(mut questions: &UnixStream, asked: &Asked) {
         } else {
             let signal = c_int::from(number);
             let ends = (asked.ends)(name(signal), has_terminal());
-            tell(if ends { ENDS } else { GOES_ON }, signal);
+            send(if ends { ENDS } else { GOES_ON }, signal);
         }
     }
 }
