@@ -30,7 +30,6 @@ natives! {
         let call = Call::of(context, "brick_close", 1);
         let number = u32::try_from(call.integer(number)?).map_err(|_| PrologError::Failure)?;
         let closed = state::close_brick(number).ok_or(PrologError::Failure)?;
-        #[cfg(feature = "sim")]
         crate::sim::end_of(number);
         call.or_throw(closed)
     }

@@ -1,31 +1,12 @@
 //! `prolog/ev3dev/buttons.pl`: the buttons of the brick.
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
+use crate::glue::sources::Source;
 use crate::glue::terms::unify_atom;
 use ev3_driver::brick::buttons::{self as keys, Button, Event, Events};
-use ev3_driver::lock::locked;
 use ev3_driver::wait::AnyWait;
-use std::sync::{Arc, Mutex, Weak};
+use std::sync::Arc;
 use swipl::prelude::*;
-
-/// The button events from the opening of the source to its close.
-#[arc_blob("ev3_buttons", defaults)]
-struct Source {
-    events: Mutex<Option<Arc<Events>>>,
-}
-
-impl Source {}
-
-/// The sources that somebody may still read.
-static SOURCES: Mutex<Vec<Weak<Source>>> = Mutex::new(Vec::new());
-
-/// Closes all sources, because their file system is going away. Later reads fail.
-#[cfg(feature = "fuse")]
-pub(crate) fn close_sources() {
-    for source in locked(&SOURCES).drain(..).filter_map(|source| source.upgrade()) {
-        *locked(&source.events) = None;
-    }
-}
 
 natives! {
     /// buttons_(-Keys)
@@ -56,10 +37,7 @@ natives! {
     semidet fn "button_source_"(context, source) {
         let call = Call::of(context, "button_events", 1);
         let events = events_from_now(&call)?;
-        let opened = Arc::new(Source { events: Mutex::new(Some(Arc::new(events))) });
-        locked(&SOURCES).retain(|source| source.strong_count() > 0);
-        locked(&SOURCES).push(Arc::downgrade(&opened));
-        source.unify(opened)
+        source.unify(Source::open(events))
     }
 
     /// button_event_(+Source, +Index, -Key, -Event, -Reason): `over` at the end.
@@ -68,7 +46,7 @@ natives! {
             let call = Call::of(context, "button_events", 1);
             let source: Arc<Source> = source.get_ex()?;
             let index = usize::try_from(call.integer(index)?).map_err(|_| PrologError::Failure)?;
-            let events = locked(&source.events).clone().ok_or(PrologError::Failure)?;
+            let events = source.events().ok_or(PrologError::Failure)?;
             Ok(Some(events.until_nth(index)))
         },
         call(waiting) => {

@@ -4,8 +4,9 @@ use crate::glue::error::wrong_value;
 use crate::glue::places::places;
 use crate::glue::state;
 use crate::glue::terms::unify_atom;
+use crate::glue::watch::Frame;
 use crate::motors::stop_action;
-use crate::view;
+use crate::sim::watched_simulation;
 use ev3_driver::drive::odometry::Wheels;
 use ev3_driver::drive::steering::Leg;
 use ev3_driver::drive::{Command, Drive, DriveOptions, Robot, UntilEnded};
@@ -40,7 +41,7 @@ natives! {
         let drive = drive_of(&call, robot, use_gyro)?;
         let pose = Pose { x: call.float(x)?, y: call.float(y)?, heading: call.float(heading)? };
         let is_set = call.or_throw(drive.set_pose(pose))?;
-        view::pose_is_set(pose);
+        pose_is_set(pose);
         into_prolog_result(is_set)
     }
 
@@ -94,6 +95,28 @@ natives! {
     }
 }
 
+/// How far a pose may be from the true one to be one in the world, in cm and degrees.
+const NEAR: f64 = 25.0;
+const ABOUT: f64 = 30.0;
+
+/// The odometry counts from this pose on. If it is near the true one, then the program counts in
+/// the world's frame. Else its frame is laid on the robot as it truly is now.
+fn pose_is_set(believed: Pose) {
+    let Some(simulation) = watched_simulation() else {
+        return counts_in_world();
+    };
+    let ev3_sim::Pose { x, y, heading } = simulation.machine().pose();
+    let real = Pose { x, y, heading };
+    let is_near = (believed.x - x).hypot(believed.y - y) <= NEAR
+        && wrapped(believed.heading - heading).abs() <= ABOUT;
+    *state::watched().frame() = (!is_near).then_some(Frame { believed, real });
+}
+
+/// The program knows where the robot is in the world.
+pub(crate) fn counts_in_world() {
+    *state::watched().frame() = None;
+}
+
 /// `robot(Left, Right, LeftDiameter, RightDiameter, LeftInverted, RightInverted,
 /// Axle, Offset)`
 fn robot_of<'a, C: QueryableContextType>(
@@ -128,7 +151,7 @@ fn robots_drive<'a, C: QueryableContextType>(
     call.devices()?;
     let robot = robot_of(call, robot)?;
     if state::known_drive().is_none() {
-        view::counting_begins();
+        pose_is_set(Pose { x: 0.0, y: 0.0, heading: 0.0 });
     }
     Ok(state::drive(&robot))
 }

@@ -59,7 +59,6 @@ natives! {
         let call = Call::of(context, "ev3_sysfs", 1);
         let root = call.text(root)?;
         let used = use_files(&*root);
-        #[cfg(feature = "sim")]
         crate::sim::end_unless_mounted();
         call.or_throw(used)
     }

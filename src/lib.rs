@@ -34,6 +34,9 @@ mod sensors;
 mod servo_motors;
 #[cfg(feature = "sim")]
 mod sim;
+#[cfg(not(feature = "sim"))]
+#[path = "no_sim.rs"]
+mod sim;
 mod sound;
 mod time;
 mod view;
@@ -71,6 +74,7 @@ pub extern "C" fn install() {
     view::register();
     view::door::register();
     view::hand::register();
+    view::located::register();
     #[cfg(feature = "sim")]
     {
         sim::register();

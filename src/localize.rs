@@ -1,11 +1,10 @@
 //! `prolog/ev3dev/localize.pl`: where the robot is on a map.
-use crate::drive::drive_of;
+use crate::drive::{counts_in_world, drive_of};
 use crate::glue::call::Call;
 use crate::glue::error::wrong_because;
 use crate::glue::places::place_term;
 use crate::glue::terms::unify_atom;
 use crate::roadmap::map_of;
-use crate::view;
 use ev3_driver::lock::locked;
 use ev3_localize::{Cluster, Count, Field, Localizer, Mapper, Model, Options, Step, Unfit, Wander};
 use ev3_motion::{Pose, wrapped};
@@ -83,16 +82,6 @@ natives! {
         }
     }
 
-    /// map_show_(+Mapper): pages show it.
-    semidet fn "map_show_"(_context, mapper) {
-        mapping(mapper, |mapper| { view::keep_map(mapper); Ok(()) })
-    }
-
-    /// localize_show_(+Localizer): pages show it.
-    semidet fn "localize_show_"(_context, localizer) {
-        with(localizer, |localizer| { view::keep_localized(localizer); Ok(()) })
-    }
-
     /// localize_new_(+Facts, +Options, -Localizer): options is `options(Hull, Sensor, Model,
     /// Wander, Count, Update, Seed, Search, Table)`.
     semidet fn "localize_new_"(context, facts, options, localizer) {
@@ -168,7 +157,7 @@ natives! {
         let turn = wrapped(best.pose.heading - believed.heading);
         let corrected = Pose { heading: believed.heading + turn, ..best.pose };
         if call.or_throw(drive.correct_pose(corrected))? {
-            view::pose_is_of_world();
+            counts_in_world();
         }
         Ok(())
     }
@@ -219,7 +208,11 @@ natives! {
     }
 }
 
-fn mapping<T>(term: &Term, act: impl FnOnce(&mut Mapper) -> PrologResult<T>) -> PrologResult<T> {
+/// Does something with a map that is made.
+pub(crate) fn mapping<T>(
+    term: &Term,
+    act: impl FnOnce(&mut Mapper) -> PrologResult<T>,
+) -> PrologResult<T> {
     let blob: Arc<MapperBlob> = term.get_ex()?;
     act(&mut locked(&blob.mapper))
 }
@@ -230,7 +223,11 @@ fn pose_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult
     Ok(Pose { x: call.float(&x)?, y: call.float(&y)?, heading: call.float(&heading)? })
 }
 
-fn with<T>(term: &Term, act: impl FnOnce(&mut Localizer) -> PrologResult<T>) -> PrologResult<T> {
+/// Does something with a localizer.
+pub(crate) fn with<T>(
+    term: &Term,
+    act: impl FnOnce(&mut Localizer) -> PrologResult<T>,
+) -> PrologResult<T> {
     let blob: Arc<LocalizerBlob> = term.get_ex()?;
     act(&mut locked(&blob.localizer))
 }

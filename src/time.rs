@@ -4,18 +4,11 @@ use crate::glue::due::note_guards;
 use crate::glue::state::{chosen_devices, devices};
 use crate::glue::terms::unify_atom;
 use crate::glue::waiting::{self, Round};
+use crate::sim::has_virtual_clock;
 use ev3_driver::device::sleep::Sleep;
 use ev3_driver::wait::Slices;
 use std::time::Duration;
 use swipl::prelude::*;
-
-#[cfg(feature = "sim")]
-use crate::sim::has_virtual_clock;
-
-#[cfg(not(feature = "sim"))]
-fn has_virtual_clock(_brick: u32) -> bool {
-    false
-}
 
 natives! {
     /// now_(-Seconds): since some fixed moment.

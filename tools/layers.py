@@ -9,7 +9,8 @@ The table is a list of sections. A section begins with the folder of its files
 in brackets; each line is a layer, its folders or files, and, after an arrow,
 the layers it may import. Every file must be in a layer, and every name of the table must be there. The most specific name
 wins. A layer may always import itself. A section whose folder does not exist
-is an error.
+is an error, and so is a crate without a section, or a folder of private/ that
+no layer names.
 
     [crates/driver/src]
     ground   error.rs class.rs
@@ -23,6 +24,7 @@ elsewhere, but not in tests, comments and strings. A re-exported name counts as
 an import of the file that defines it. Prolog: use_module, autoload, reexport,
 ensure_loaded and include, and calls of Module:Predicate.
 """
+import glob
 import os
 import re
 import sys
@@ -286,11 +288,26 @@ def layer_of(file, layers):
     return best and best[1]
 
 
+def crates(top):
+    """The folder of the sources of each crate."""
+    manifests = glob.glob("crates/*/Cargo.toml", root_dir=top)
+    return sorted(os.path.join(os.path.dirname(each), "src") for each in manifests)
+
+
+def rooms(files):
+    """The folders within private/."""
+    return sorted({found.group() for file in files if (found := re.match(r".*private/\w+(?=/)", file))})
+
+
 def check(top, table, listing=False):
     """Prints what it checks; how many errors there are."""
     errors = 0
     sections = read_table(table)
     folders = [folder for folder, _ in sections]
+    for folder in crates(top):
+        if folder not in folders:
+            print(f"layers: {folder} is of a crate that has no section")
+            errors += 1
     for folder, layers in sections:
         root = os.path.join(top, folder)
         files = sorted(
@@ -313,7 +330,12 @@ def check(top, table, listing=False):
             if layer_of(file, layers) is None:
                 print(f"layers: {folder}/{file} is in no layer")
                 errors += 1
-        for name in (name.rstrip("/") for names, _ in layers.values() for name in names):
+        all_names = [name.rstrip("/") for names, _ in layers.values() for name in names]
+        for room in rooms(files):
+            if not any((name + "/").startswith(room + "/") for name in all_names):
+                print(f"layers: {folder}/{room} is a room that no layer names")
+                errors += 1
+        for name in all_names:
             if name != "." and not any(file == name or file.startswith(name + "/") for file in files):
                 print(f"layers: {folder}/{name} in the table is no file or folder")
                 errors += 1
@@ -376,6 +398,7 @@ def self_test():
         ("an arrow up through the front", {"src/low.rs": "use crate::Device;\n"}, 1, "low.rs (ground) must not import device/mod.rs"),
         ("a circle within a layer", {"src/device/list.rs": "use super::Device;\n"}, 1, "circle of 2: device/list.rs device/mod.rs"),
         ("a file in no layer", {"src/new.rs": ""}, 1, "src/new.rs is in no layer"),
+        ("a crate without a section", {"crates/new/Cargo.toml": ""}, 1, "crates/new/src is of a crate that has no section"),
         ("a layer without a file", {"src/motor/mod.rs": None}, 1, "src/motor in the table is no file"),
     ]
     failed = 0
@@ -394,6 +417,7 @@ def self_test():
     pl_cases = [
         ("Prolog by its table", {}, 0, "2 files, 1 arrows"),
         ("a call through a wall", {"p/b.pl": ":- module(b, []).\nb :- a:a.\n"}, 1, "b.pl (low) must not import a.pl"),
+        ("a room without a layer", {"p/private/hall/c.pl": ""}, 1, "p/private/hall is a room that no layer names"),
         ("autoload upwards", {"p/b.pl": ":- module(b, []).\n:- autoload(library(a), [a/0]).\n"}, 1, "b.pl (low) must not import a.pl"),
     ]
     for name, change, errors, text in pl_cases:

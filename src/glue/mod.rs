@@ -9,6 +9,7 @@ pub(crate) mod known;
 mod natives;
 pub(crate) mod places;
 pub(crate) mod signals;
+pub(crate) mod sources;
 pub(crate) mod state;
 pub(crate) mod terms;
 pub(crate) mod waiting;

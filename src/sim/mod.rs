@@ -13,12 +13,12 @@ mod mount;
 mod running;
 
 pub(crate) use self::running::{
-    end_of, end_unless_mounted, has_virtual_clock, robot_name, running_simulation,
-    running_simulations,
+    end_of, end_unless_mounted, has_virtual_clock, robot_name, running_simulations,
+    watched_simulation,
 };
 
 use self::files::SimulatedFiles;
-use self::running::{is_running, simulation, start, start_crowd};
+use self::running::{is_running, running_simulation, simulation, start, start_crowd};
 use crate::facts::{self, channel_of, named, remote_buttons};
 use crate::glue::call::Call;
 use crate::glue::due::Bell;

@@ -1,7 +1,7 @@
 //! The simulated tree as real files, through FUSE.
-use crate::buttons::close_sources;
 use crate::glue::call::Call;
 use crate::glue::error::{no_such, wrong_because};
+use crate::glue::sources::close_sources;
 use crate::glue::state::{brick_number, dev, devices, use_default_dev, use_default_files};
 use ev3_driver::Registry;
 use ev3_driver::lock::locked;

@@ -41,8 +41,14 @@ pub(super) fn simulation<C: QueryableContextType>(
     Ok(simulation)
 }
 
-/// The running simulation, for somebody who only looks or reaches in from outside.
-pub(crate) fn running_simulation() -> Option<Arc<Simulation>> {
+/// The running simulation whose tree is in use, for somebody who only looks or reaches in from
+/// outside.
+pub(crate) fn watched_simulation() -> Option<Arc<Simulation>> {
+    running_simulation().filter(|_| watched().is_simulated())
+}
+
+/// The running simulation.
+pub(super) fn running_simulation() -> Option<Arc<Simulation>> {
     locked(&RUNNING).get(&brick_number()).map(|running| Arc::clone(&running.simulation))
 }
 

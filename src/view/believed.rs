@@ -1,45 +1,15 @@
 //! Where the program believes the robot to be, in the world.
 //!
-//! Odometry counts from where the robot was when it was set, or from a pose that the program
-//! gives. If that pose is near the true one, then the program counts in the world's frame. Else
-//! its frame is laid on the robot as it truly was at that moment.
+//! The drive notes in which frame the odometry counts.
 use super::notes::notes;
-use super::reach::running_simulation;
 use super::state::{self, Decimal, OrNull, fine, text};
 use crate::glue::state::{known_drive, watched};
 use crate::glue::watch::Frame;
 use ev3_driver::drive::Believed;
 use ev3_driver::lock::locked;
-use ev3_motion::{Pose, wrapped};
+use ev3_motion::Pose;
 use std::sync::Mutex;
 use std::time::Duration;
-
-/// How far a pose may be from the true one to be one in the world, in cm and degrees.
-const NEAR: f64 = 25.0;
-const ABOUT: f64 = 30.0;
-
-/// A robot was set, whose odometry begins at the origin.
-pub(crate) fn counting_begins() {
-    pose_is_set(Pose { x: 0.0, y: 0.0, heading: 0.0 });
-}
-
-/// The program has said where the robot is.
-pub(crate) fn pose_is_set(believed: Pose) {
-    let Some(simulation) = running_simulation() else {
-        *watched().frame() = None;
-        return;
-    };
-    let ev3_sim::Pose { x, y, heading } = simulation.machine().pose();
-    let real = Pose { x, y, heading };
-    let is_near = (believed.x - x).hypot(believed.y - y) <= NEAR
-        && wrapped(believed.heading - heading).abs() <= ABOUT;
-    *watched().frame() = (!is_near).then_some(Frame { believed, real });
-}
-
-/// The program knows where the robot is in the world.
-pub(crate) fn pose_is_of_world() {
-    *watched().frame() = None;
-}
 
 /// What the drive knows, without looking; with the way after a moment. While a thread of the
 /// program is at it, what it knew last, without the way.

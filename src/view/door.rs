@@ -1,8 +1,9 @@
 //! The page's server, and the talk with each page: what `crates/door` has, for Prolog.
-use super::reach::{outside, running_simulation, stop_motors};
+use super::reach::{outside, stop_motors};
 use super::{simulated, terms};
 use crate::glue::call::{Call, Text};
 use crate::glue::terms::unify_atom;
+use crate::sim::watched_simulation;
 use ev3_door::{Door, Heard, Made, Page, Site, Visit};
 use ev3_driver::lock::locked;
 use ev3_signals::latch::{self, Reason};
@@ -17,7 +18,7 @@ static DOOR: Mutex<Option<Arc<Door>>> = Mutex::new(None);
 const MADE: [Made; 1] = [Made {
     path: "/samples.csv",
     kind: "text/csv; charset=utf-8",
-    make: || outside(|| simulated::csv(&running_simulation()?.machine())),
+    make: || outside(|| simulated::csv(&watched_simulation()?.machine())),
     lacking: "There are no samples.",
 }];
 

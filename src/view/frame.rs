@@ -1,9 +1,9 @@
 //! Frames: what a page is sent, beginning with what it has not got yet.
 use super::notes::notes;
-use super::reach::running_simulation;
 use super::state::{Clock, Decimal, Report, Samples};
 use super::{brick, simulated};
 use crate::glue::state::{chosen_devices, devices, watched};
+use crate::sim::watched_simulation;
 use ev3_driver::lock::locked;
 use ev3_json::Json;
 use ev3_os::Instant;
@@ -66,7 +66,7 @@ enum Source {
 
 impl Source {
     fn now() -> Self {
-        match running_simulation() {
+        match watched_simulation() {
             Some(simulation) => Self::Simulation(simulation),
             None if chosen_devices().is_some() => Self::Brick,
             None => Self::None,

@@ -1,9 +1,10 @@
 //! A person's acts on a page: they change the simulated world and its time.
-use super::reach::{outside, running_simulation};
+use super::reach::outside;
 use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_value};
 use crate::glue::state::watched;
 use crate::glue::terms::unify_atom;
+use crate::sim::watched_simulation;
 use ev3_driver::lock::locked;
 use ev3_sim::{Clock, ItemId, Port, Simulation};
 use std::sync::{Arc, Mutex};
@@ -104,7 +105,7 @@ natives! {
 
 /// The simulation; fails if none runs.
 fn simulation() -> PrologResult<Arc<Simulation>> {
-    running_simulation().ok_or(PrologError::Failure)
+    watched_simulation().ok_or(PrologError::Failure)
 }
 
 /// The device that was pulled out of each port.

@@ -3,18 +3,32 @@
 use super::believed::{ToWorld, ellipse};
 use super::notes::notes;
 use super::state::{Cluster, Decimal, Fine, Localized, OrNull, Raster, fine, text};
+use crate::localize::{mapping, with};
 use ev3_driver::lock::locked;
 use ev3_localize::{Localizer, Mapper};
 use ev3_motion::Pose;
 use ev3_os::Instant;
 use std::sync::Mutex;
 use std::time::Duration;
+use swipl::prelude::*;
 
 /// The most particles that are sent.
 const MOST: usize = 400;
 
+natives! {
+    /// map_show_(+Mapper): pages show it.
+    semidet fn "map_show_"(_context, mapper) {
+        mapping(mapper, |mapper| { keep_map(mapper); Ok(()) })
+    }
+
+    /// localize_show_(+Localizer): pages show it.
+    semidet fn "localize_show_"(_context, localizer) {
+        with(localizer, |localizer| { keep_localized(localizer); Ok(()) })
+    }
+}
+
 /// Pages show this localizer. Its poses are those of its map, which is taken for the world.
-pub(crate) fn keep_localized(of: &Localizer) {
+fn keep_localized(of: &Localizer) {
     let all = of.particles();
     let some = all.iter().step_by(all.len().div_ceil(MOST).max(1));
     let clusters = of.clusters();
@@ -39,7 +53,7 @@ fn parts(Pose { x, y, heading }: Pose) -> [Fine; 3] {
 
 /// Pages show this map. To think about all looks again takes a while: that is done so seldom
 /// that it takes at most a twentieth of the time.
-pub(crate) fn keep_map(mapper: &mut Mapper) {
+fn keep_map(mapper: &mut Mapper) {
     static NEXT: Mutex<Option<Instant>> = Mutex::new(None);
     let began = Instant::now();
     let mut next = locked(&NEXT);

@@ -11,7 +11,7 @@ pub(crate) mod door;
 pub(crate) mod door;
 mod frame;
 pub(crate) mod hand;
-mod located;
+pub(crate) mod located;
 mod notes;
 mod printed;
 mod reach;
@@ -20,16 +20,14 @@ mod state;
 mod terms;
 mod threads;
 
-pub(crate) use self::believed::{counting_begins, pose_is_of_world, pose_is_set};
-pub(crate) use self::located::{keep_localized, keep_map};
-
 use self::notes::notes;
-use self::reach::{keep_samples, running_simulations, seconds, stop_motors};
+use self::reach::{keep_samples, seconds, stop_motors};
 use self::state::{Decimal, Entry};
 use crate::glue::call::Call;
 use crate::glue::state::{has_tree, show_brick};
 use crate::glue::terms::unify_atom;
 use crate::glue::watch;
+use crate::sim::running_simulations;
 use ev3_signals::latch::{self, Reason};
 use swipl::prelude::*;
 

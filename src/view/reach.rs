@@ -1,42 +1,10 @@
 //! Reaching into the simulation that runs, from outside of the program.
 use super::threads;
-use crate::glue::state::{devices, on_all_bricks, watched};
+use crate::glue::state::{devices, on_all_bricks};
+use crate::sim::{running_simulations, watched_simulation};
 use ev3_driver::{Error, motor};
-use ev3_sim::{ItemId, Simulation, stay_outside};
-use std::sync::Arc;
+use ev3_sim::stay_outside;
 use std::time::Duration;
-
-/// The simulation whose tree is in use.
-#[cfg(feature = "sim")]
-pub(super) fn running_simulation() -> Option<Arc<Simulation>> {
-    crate::sim::running_simulation().filter(|_| watched().is_simulated())
-}
-
-/// There is none.
-#[cfg(not(feature = "sim"))]
-pub(super) fn running_simulation() -> Option<Arc<Simulation>> {
-    None
-}
-
-/// Those of all bricks.
-#[cfg(feature = "sim")]
-pub(super) fn running_simulations() -> Vec<Arc<Simulation>> {
-    crate::sim::running_simulations()
-}
-
-/// There are none.
-#[cfg(not(feature = "sim"))]
-pub(super) fn running_simulations() -> Vec<Arc<Simulation>> {
-    Vec::new()
-}
-
-/// The name of another robot in the world of the one that is shown.
-pub(super) fn robot_name(id: ItemId) -> Option<String> {
-    #[cfg(feature = "sim")]
-    return crate::sim::robot_name(id);
-    #[cfg(not(feature = "sim"))]
-    None
-}
 
 /// Reaches in from outside: no simulated time passes, and no turn is waited for.
 pub(super) fn outside<T>(act: impl FnOnce() -> T) -> T {
@@ -48,7 +16,7 @@ pub(super) fn outside<T>(act: impl FnOnce() -> T) -> T {
 
 /// The time that frames tell.
 fn now() -> Duration {
-    match running_simulation() {
+    match watched_simulation() {
         Some(simulation) => simulation.machine().now(),
         None => devices().tree().now(),
     }

@@ -2,13 +2,13 @@
 use super::believed::{ToWorld, believe, believed};
 use super::hand::pulled;
 use super::notes::notes;
-use super::reach::robot_name;
 use super::state::{
     Beam, Brick, Clock, Decimal, Devices, Fine, Hull, Item, Lights, OrNull, Plugs, Port, Robot,
     Row, Samples, Screen, Sensor, Sight, Spec, Surroundings, Text, Wheel, Words, World, fine,
     points, text,
 };
 use crate::glue::state::watched;
+use crate::sim::robot_name;
 use ev3_driver::lock::locked;
 use ev3_json::Json;
 use ev3_sim::{

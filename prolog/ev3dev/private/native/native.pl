@@ -439,7 +439,6 @@ missing.
 %!  map_look_(+Mapper, +Pose, +Cm) is semidet.
 %!  map_new_(+Sensor, -Mapper) is semidet.
 %!  map_occupancy_(+Mapper, +X, +Y, -Probability) is semidet.
-%!  map_show_(+Mapper) is semidet.
 %!  map_walls_(+Mapper, -Bounds, -Walls) is semidet.
 %!  localize_at_(+Localizer, +Pose, +Deviation) is semidet.
 %!  localize_best_(+Localizer, +Robot, +UseGyro, -Pose, -Covar) is semidet.
@@ -448,7 +447,6 @@ missing.
 %!  localize_new_(+Facts, +Options, -Localizer) is semidet.
 %!  localize_particles_(+Localizer, -Particles) is semidet.
 %!  localize_reset_(+Localizer) is semidet.
-%!  localize_show_(+Localizer) is semidet.
 %!  localize_step_(+Localizer, +Robot, +UseGyro, +Cm, -Step, -By) is semidet.
 %!  localize_sure_(+Localizer, -Confidence, -Fit, -MustLook) is semidet.
 %
@@ -548,6 +546,11 @@ missing.
 %!  view_step_(+Seconds, +IsIdle) is semidet.
 %
 %   `src/view/hand.rs`
+
+%!  localize_show_(+Localizer) is semidet.
+%!  map_show_(+Mapper) is semidet.
+%
+%   `src/view/located.rs`
 
 % The end of the program
 
