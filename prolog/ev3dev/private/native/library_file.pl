@@ -1,6 +1,7 @@
 :- module(ev3dev_library_file,
           [ load_library/0,
-            library_file/1              % -File
+            library_file/1,             % -File
+            check_natives/0
           ]).
 :- use_module('../basics/small_lists').
 
@@ -201,12 +202,36 @@ load_or_say :-
     (   var(Formal)
     ->  true
     ;   why(Formal, Context, Error),
-        module_property(ev3dev_library_file, file(This)),
-        file_directory_name(This, Room),
-        atom_concat(Room, '/no_library', File),
-        load_files(File, [if(not_loaded), imports([])]),
-        ev3dev_no_library:without_library(Error)
+        without_library(Error)
     ).
+
+without_library(Error) :-
+    module_property(ev3dev_library_file, file(This)),
+    file_directory_name(This, Room),
+    atom_concat(Room, '/no_library', File),
+    load_files(File, [if(not_loaded), imports([])]),
+    ev3dev_no_library:without_library(Error).
+
+%!  check_natives is det.
+%
+%   Without one of the predicates that ev3dev_native exports, the library is
+%   older than the Prolog files: nothing of the pack works then, as without a
+%   library. native.pl calls this when it is loaded.
+
+check_natives :-
+    loaded,
+    module_property(ev3dev_native, exports(Exports)),
+    one_of(Exports, Name/Arity),
+    functor(Head, Name, Arity),
+    \+ predicate_property(ev3dev_native:Head, defined),
+    !,
+    pack_folder(Pack),
+    format(atom(Text),
+           'its native library is older than its Prolog files, and does not \c
+            define ~q. Run "make" in ~w', [Name/Arity, Pack]),
+    without_library(error(existence_error(foreign_library, ev3dev),
+                          context(_, Text))).
+check_natives.
 
 %   A library that needs a newer C library does not suit this machine, either.
 

@@ -210,7 +210,7 @@
             view_visit_/1
           ]).
 :- use_module('../errors/errors', []).
-:- use_module(library_file, []).
+:- use_module(library_file, [check_natives/0]).
 
 /** <module> The native predicates
 
@@ -562,3 +562,6 @@ missing.
 %!  told_to_end_ is semidet.
 %
 %   `src/halt.rs`
+
+% This directive stands last.
+:- check_natives.
