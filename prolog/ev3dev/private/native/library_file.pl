@@ -220,6 +220,7 @@ without_library(Error) :-
 
 check_natives :-
     loaded,
+    predicate_property(ev3dev_native:sim_active_, defined),  % built with it
     module_property(ev3dev_native, exports(Exports)),
     one_of(Exports, Name/Arity),
     functor(Head, Name, Arity),
