@@ -217,7 +217,8 @@ text(Text, Position, Part) :-
                  *******************************/
 
 %   tests(Files, Tests): of what has no test file of its name, or other tests, too.
-tests([arguments, domains, errors],       [errors, bad_input, motors, robot]).
+tests([arguments, checks, domains, errors, error_texts, frames, public_clauses],
+                                          [errors, bad_input, motors, robot]).
 tests([attributes],                       [motor_settings, dc_motors, driver, ports]).
 tests([pool, machines, descriptors],           [sim_batch]).
 tests([fenced_seed, fenced_log],          [sim_fenced]).

@@ -2,7 +2,8 @@
           [ battery/2                   % ?Key, -Value
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors, [domain_error/2, term_expansion/4]).
+:- use_module(private/errors/errors, [domain_error/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments, [word/2]).
 :- use_module(private/native/native, [battery_/2]).
 

@@ -24,9 +24,10 @@
 :- use_module(private/checks/arguments,
               [must_be_options/3, timeout_option/2]).
 :- use_module(private/files/directory, [directory_path/2]).
-:- use_module(private/errors/errors,
-              [ goal_of_program/1, must_be/2, must_be_goal/1,
-                term_expansion/4, throw_error/3 ]).
+:- use_module(private/checks/checks, [must_be/2, must_be_goal/1]).
+:- use_module(private/errors/errors, [throw_error/3]).
+:- use_module(private/errors/frames, [goal_of_program/1]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/bricks/messages, [next_message/4, send_message/3]).
 :- use_module(private/native/native, [brick_/1, stop_all_bricks_/0]).
 :- use_module(private/basics/small_lists, [one_of/2]).

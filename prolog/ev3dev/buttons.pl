@@ -5,8 +5,9 @@
             button_events/1             % -Events
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors,
-              [domain_error/2, must_be/2, term_expansion/4]).
+:- use_module(private/checks/checks, [must_be/2]).
+:- use_module(private/errors/errors, [domain_error/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(files, []).
 :- use_module(private/checks/arguments,
               [must_be_options/3, timeout_option/2, word/2]).

@@ -2,8 +2,9 @@
           [ calibrate/3                 % +What, :Options, -SetRobot
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors,
-              [domain_error/2, must_be/2, term_expansion/4]).
+:- use_module(private/checks/checks, [must_be/2]).
+:- use_module(private/errors/errors, [domain_error/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(library(lists), [append/3, member/2, sum_list/2]).
 :- use_module(private/checks/arguments,
               [ must_be_options/3, number_option/4, number_value/2,

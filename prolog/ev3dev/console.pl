@@ -5,8 +5,9 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
-:- use_module(private/errors/errors,
-              [in_own_name/1, must_be/2, term_expansion/4]).
+:- use_module(private/checks/checks, [must_be/2]).
+:- use_module(private/errors/errors, [in_own_name/1]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/run/brick).
 :- use_module(screen, [screen_clear/0, screen_show/0, screen_text/4]).
 

@@ -12,8 +12,9 @@
             dc_motor_attribute/3        % ?Port, +Attribute, ?Value
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors,
-              [domain_error/2, evaluated/2, term_expansion/4]).
+:- use_module(private/checks/checks, [evaluated/2]).
+:- use_module(private/errors/errors, [domain_error/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/explain/hints).
 :- use_module(driver, [dc_motor/1]).
 :- use_module(private/run/halt, []).

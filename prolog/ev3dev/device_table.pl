@@ -2,7 +2,7 @@
           [ ev3_devices/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors, [term_expansion/4]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(driver,
               [ decimals/2, lego_sensor/2, mode/2, position/2,
                 sensor_attribute/3, state/2, tacho_motor/2, value/3

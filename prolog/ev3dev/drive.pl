@@ -21,8 +21,8 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
-:- use_module(private/errors/errors,
-              [evaluated/2, must_be/2, term_expansion/4]).
+:- use_module(private/checks/checks, [evaluated/2, must_be/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments,
               [ must_be_options/3, number_option/4, number_value/2,
                 number_value/3, take_options/4, timeout_option/2

@@ -35,7 +35,8 @@
             decimals_file/2             % ?Port, -File
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors, [must_be/2, term_expansion/4]).
+:- use_module(private/checks/checks, [must_be/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/devices/attributes,
               [ attribute/4, attribute_words/4, device_at/3,
                 goal_expansion/2, value_attribute/2

@@ -14,10 +14,11 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
+:- use_module(private/checks/checks, [must_be/2, must_be_goal/1]).
 :- use_module(private/errors/errors,
-              [ error_within/3, goal_of_program/1, in_own_name/1, must_be/2,
-                must_be_goal/1, term_expansion/4, throw_error/3
-              ]).
+              [error_within/3, in_own_name/1, throw_error/3]).
+:- use_module(private/errors/frames, [goal_of_program/1]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments,
               [must_be_options/3, number_value/3, option/3]).
 :- use_module(private/run/brick,

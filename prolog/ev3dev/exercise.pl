@@ -21,7 +21,8 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
 :- use_module(private/checks/arguments, [must_be_options/3, number_value/3]).
-:- use_module(private/errors/errors, [must_be/2, term_expansion/4]).
+:- use_module(private/checks/checks, [must_be/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/places, [place/2]).
 :- use_module(private/marking/mark,
               [ check_solution/2, marks/4, tried/3 ]).

@@ -7,7 +7,8 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/run/brick, [brick/1, is_apart/1, named_brick/3]).
-:- use_module(private/errors/errors, [term_expansion/4, throw_error/3]).
+:- use_module(private/errors/errors, [throw_error/3]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/files/directory,
               [directory_path/2, environment_directory/2]).
 :- use_module(private/native/native,

@@ -41,13 +41,14 @@
               [ must_be_options/3, option/2, option/3,
                 timeout_option/2
               ]).
-:- use_module(private/errors/errors,
-              [ domain_error/2, existence_error/2, must_be/2,
-                term_expansion/4
-              ]).
+:- use_module(private/checks/checks, [must_be/2]).
+:- use_module(private/errors/errors, [domain_error/2, existence_error/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/golog/context, [context/3, in_mode/3]).
-:- use_module(private/golog/domain, [fluent_value/4, situation/3,
-                                     situation_history/2]).
+:- use_module(private/golog/conditions, [holds/3]).
+:- use_module(private/golog/progression, [situation/3]).
+:- use_module(private/golog/situation, [situation_history/2]).
+:- use_module(private/golog/values, [fluent_value/4]).
 :- use_module(private/golog/messages, []).
 :- use_module(private/golog/run,
               [ recorded_history/1, run_online/4, situation_of_run/4,
@@ -387,7 +388,7 @@ final(M:Program, History) :-
 
 holds(M:Condition, History) :-
     situation_now(M, History, S, X),
-    ev3dev_golog_domain:holds(Condition, S, X).
+    holds(Condition, S, X).
 
 %!  has_val(:Fluent, ?Value, +History) is nondet.
 %

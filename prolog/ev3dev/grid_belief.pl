@@ -13,8 +13,9 @@
 :- use_module(private/load/compiled, []).
 :- use_module(private/checks/arguments, [must_be_options/3, number_option/4]).
 :- use_module(private/run/brick, [brick/1]).
-:- use_module(private/errors/errors,
-              [domain_error/2, must_be/2, term_expansion/4]).
+:- use_module(private/checks/checks, [must_be/2]).
+:- use_module(private/errors/errors, [domain_error/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/grid/map).
 :- use_module(private/grid/moves, [go_to_cell/5]).
 :- use_module(private/grid/place, [grid_metric/2, set_pose_in/3]).

@@ -8,7 +8,8 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/checks/arguments, [must_be_within/4, word/2]).
-:- use_module(private/errors/errors, [domain_error/2, term_expansion/4]).
+:- use_module(private/errors/errors, [domain_error/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(sensors, [ir_prox/2]).
 :- use_module(private/native/native, [sensor_values_/5]).
 :- use_module(private/basics/small_lists).

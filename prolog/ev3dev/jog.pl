@@ -4,7 +4,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
-:- use_module(private/errors/errors, [term_expansion/4]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments, [must_be_options/3]).
 :- use_module(private/devices/drive_moves, [speed_option/4]).
 :- use_module(private/devices/robot_state, [robot_set/4]).

@@ -8,10 +8,10 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
-:- use_module(private/errors/errors,
-              [ existence_error/2, goal_of_program/1, in_own_name/1,
-                must_be/2, must_be_goal/1, term_expansion/4
-              ]).
+:- use_module(private/checks/checks, [must_be/2, must_be_goal/1]).
+:- use_module(private/errors/errors, [existence_error/2, in_own_name/1]).
+:- use_module(private/errors/frames, [goal_of_program/1]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/files/directory, [readable_file/3, write_file/2]).
 :- use_module(private/explain/hints, [fail_because/1]).
 :- use_module(private/checks/arguments, [word/2]).

@@ -6,8 +6,9 @@
             led_blink/3                 % ?Light, ?On, ?Off
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors,
-              [domain_error/2, evaluated/2, term_expansion/4]).
+:- use_module(private/checks/checks, [evaluated/2]).
+:- use_module(private/errors/errors, [domain_error/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/explain/hints).
 :- use_module(private/checks/arguments, [must_be_within/4, word/2]).
 :- use_module(private/native/native,

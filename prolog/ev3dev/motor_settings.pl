@@ -10,9 +10,9 @@
             motor_hold_pid/2            % ?Port, ?PID
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors,
-              [ domain_error/2, evaluated/2, term_expansion/4
-              ]).
+:- use_module(private/checks/checks, [evaluated/2]).
+:- use_module(private/errors/errors, [domain_error/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(driver, [motor_attribute/3, tacho_motor/2]).
 :- use_module(private/checks/arguments, [must_be_within/4, number_value/3]).
 :- use_module(private/devices/attributes,

@@ -23,10 +23,9 @@
             motor_run_until_stalled/3   % +Port, +Speed, +Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors,
-              [ domain_error/2, evaluated/2, existence_error/2, must_be/2,
-                term_expansion/4
-              ]).
+:- use_module(private/checks/checks, [evaluated/2, must_be/2]).
+:- use_module(private/errors/errors, [domain_error/2, existence_error/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/explain/hints).
 :- use_module(driver,
               [ command/2, max_speed/2, motor_attribute/3 ]).

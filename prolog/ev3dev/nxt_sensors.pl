@@ -22,7 +22,8 @@
             energy_meter/4              % ?Port, -In, -Out, -Joules
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors, [domain_error/2, term_expansion/4]).
+:- use_module(private/errors/errors, [domain_error/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments, [word/2]).
 :- use_module(sensors, [reading_of/4, sensor_reading/3]).
 :- use_module(private/devices/sensor_type, [sensor_to_read/3]).

@@ -9,8 +9,9 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(private/files/directory,
               [file_path/2, readable_file/3, write_file/2]).
-:- use_module(private/errors/errors,
-              [must_be/2, term_expansion/4, throw_error/3]).
+:- use_module(private/checks/checks, [must_be/2]).
+:- use_module(private/errors/errors, [throw_error/3]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/golog/pddl_text, [pddl_parts/2]).
 :- use_module(private/golog/s_expressions, [expression/3]).
 :- use_module(private/golog/theory, [declare_domain/1]).

@@ -1,7 +1,7 @@
 :- module(ev3dev_planners, []).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
-:- use_module(private/errors/errors, [term_expansion/4]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 
 /** <module> Planners to compare
 

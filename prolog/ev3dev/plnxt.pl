@@ -31,10 +31,11 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
+:- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/errors,
-              [ domain_error/2, existence_error/2, goal_of_program/1,
-                instantiation_error/1, must_be/2, term_expansion/4
-              ]).
+              [domain_error/2, existence_error/2, instantiation_error/1]).
+:- use_module(private/errors/frames, [goal_of_program/1]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments, [number_value/2, number_value/3]).
 :- use_module(private/run/brick, [brick/1]).
 :- use_module(private/basics/small_lists, [append_lists/3, one_of/2]).

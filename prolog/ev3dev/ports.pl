@@ -6,7 +6,7 @@
             port_device/2               % ?Port, ?Device
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors, [term_expansion/4]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments, [word/2]).
 :- use_module(private/explain/hints).
 :- use_module(driver, []).

@@ -8,9 +8,10 @@
 :- use_module(private/load/compiled, []).
 :- use_module(private/checks/arguments,
               [ must_be_options/3, number_option/4, option/3 ]).
+:- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/errors,
-              [ domain_error/2, in_own_name/1, must_be/2, term_expansion/4,
-                throw_error/3 ]).
+              [domain_error/2, in_own_name/1, throw_error/3]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(roadmap, [roadmap_path/5]).
 :- use_module(library(lists),
               [ append/3, max_list/2, member/2, min_list/2,

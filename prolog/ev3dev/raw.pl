@@ -5,8 +5,9 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
-:- use_module(private/errors/errors,
-              [domain_error/2, must_be/2, term_expansion/4]).
+:- use_module(private/checks/checks, [must_be/2]).
+:- use_module(private/errors/errors, [domain_error/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments, [must_be_within/4]).
 :- use_module(private/native/native, [i2c_read_/4, i2c_write_/3]).
 :- use_module(private/basics/small_lists).

@@ -6,7 +6,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
-:- use_module(private/errors/errors, [term_expansion/4]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/files/directory, [write_file/2]).
 :- use_module(private/explain/hints).
 :- use_module(driver, []).

@@ -9,9 +9,9 @@
             turn/2              % +Speed, +Angle
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors,
-              [ domain_error/2, evaluated/2, must_be/2, term_expansion/4
-              ]).
+:- use_module(private/checks/checks, [evaluated/2, must_be/2]).
+:- use_module(private/errors/errors, [domain_error/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/explain/hints).
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1, stop_all_motors/0]).

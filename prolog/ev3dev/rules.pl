@@ -11,11 +11,14 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
+:- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/errors,
               [ domain_error/2, error_within/3, existence_error/2,
-                goal_of_program/1, instantiation_error/1, must_be/2, shown/2,
-                term_expansion/4, throw_error/3, type_error/2
+                instantiation_error/1, throw_error/3, type_error/2
               ]).
+:- use_module(private/errors/error_texts, [shown/2]).
+:- use_module(private/errors/frames, [goal_of_program/1]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments,
               [must_be_options/3, number_value/3, option/2, option/3]).
 :- use_module(private/basics/small_lists, [append_lists/3, one_of/2]).

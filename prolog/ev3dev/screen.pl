@@ -17,10 +17,10 @@
             screen_png/1                % +File
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/checks/checks, [evaluated/2, must_be/2]).
 :- use_module(private/errors/errors,
-              [ domain_error/2, evaluated/2, in_own_name/1, must_be/2,
-                term_expansion/4, throw_error/3
-              ]).
+              [domain_error/2, in_own_name/1, throw_error/3]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/explain/hints).
 :- use_module(files, []).
 :- use_module(private/checks/arguments,

@@ -6,7 +6,8 @@
             sensor_command/2            % +Port, +Command
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors, [must_be/2, term_expansion/4]).
+:- use_module(private/checks/checks, [must_be/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(driver, [lego_sensor/2, mode/2, sensor_attribute/3]).
 :- use_module(sensors, [sensor_values/3]).
 :- use_module(private/devices/attributes, [attribute_words/4, device_at/3]).

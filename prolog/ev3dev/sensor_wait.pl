@@ -3,10 +3,10 @@
             sensor_wait/2               % :Condition, +Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/errors,
-              [ domain_error/2, existence_error/2, must_be/2,
-                term_expansion/4, throw_error/3
-              ]).
+              [domain_error/2, existence_error/2, throw_error/3]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/explain/hints).
 :- use_module(sensors, [reading_of/4]).
 :- use_module(private/checks/arguments,

@@ -25,7 +25,7 @@
             reading_of/4                % ?Reading, ?Types, ?Mode, ?Index
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors, [term_expansion/4]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/explain/hints).
 :- use_module(driver, [lego_sensor/2]).
 :- use_module(private/devices/sensor_type, [sensor_of/3]).

@@ -8,7 +8,8 @@
             servo_motor_attribute/3     % ?Port, +Attribute, ?Value
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors, [evaluated/2, term_expansion/4]).
+:- use_module(private/checks/checks, [evaluated/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/explain/hints).
 :- use_module(driver, [servo_motor/1]).
 :- use_module(private/run/halt, []).

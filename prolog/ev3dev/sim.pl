@@ -7,10 +7,11 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
+:- use_module(private/checks/checks, [must_be/2, must_be_goal/1]).
 :- use_module(private/errors/errors,
-              [ domain_error/2, existence_error/2, goal_of_program/1,
-                must_be/2, must_be_goal/1, term_expansion/4, throw_error/3
-              ]).
+              [domain_error/2, existence_error/2, throw_error/3]).
+:- use_module(private/errors/frames, [goal_of_program/1]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(private/checks/arguments,

@@ -8,8 +8,9 @@
 :- use_module(private/checks/arguments,
               [ limit_option/3, must_be_options/3, option/3,
                 take_options/4 ]).
-:- use_module(private/errors/errors,
-              [in_own_name/1, must_be/2, term_expansion/4]).
+:- use_module(private/checks/checks, [must_be/2]).
+:- use_module(private/errors/errors, [in_own_name/1]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/batch/pool,
               [ batch_step/3, end_workers/1, start_workers/2,
                 workers_ready/2 ]).

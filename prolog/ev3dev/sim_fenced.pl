@@ -10,8 +10,9 @@
                 option/3 ]).
 :- use_module(private/simulation/random_seed, [branch_seed/1]).
 :- use_module(private/files/directory, [new_directory/2]).
-:- use_module(private/errors/errors,
-              [in_own_name/1, must_be/2, term_expansion/4, throw_error/3]).
+:- use_module(private/checks/checks, [must_be/2]).
+:- use_module(private/errors/errors, [in_own_name/1, throw_error/3]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/native/native,
               [ sim_fence_close_/0, sim_fence_open_/1,
                 sim_fence_serve_/3, sim_fence_silent_/0 ]).

@@ -8,9 +8,10 @@
             for_seconds/2               % +Seconds, :Goal
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors,
-              [ domain_error/2, evaluated/2, must_be/2, must_be_goal/1,
-                term_expansion/4 ]).
+:- use_module(private/checks/checks,
+              [evaluated/2, must_be/2, must_be_goal/1]).
+:- use_module(private/errors/errors, [domain_error/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments, [number_value/3]).
 :- use_module(private/simulation/time_limits,
               [clock_changes/1, within_seconds/2]).

@@ -9,7 +9,8 @@
             sim_unmount/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors, [must_be/2, term_expansion/4]).
+:- use_module(private/checks/checks, [must_be/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(library(lists), [member/2]).
 :- use_module(private/files/directory, [directory_path/2, write_file/2]).
 :- use_module(private/native/native,

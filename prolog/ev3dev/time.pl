@@ -5,8 +5,9 @@
             elapsed/2                   % +Watch, -Seconds
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors/errors,
-              [ domain_error/2, must_be/2, term_expansion/4 ]).
+:- use_module(private/checks/checks, [must_be/2]).
+:- use_module(private/errors/errors, [domain_error/2]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(files, []).
 :- use_module(private/checks/arguments, [number_value/3]).
 :- use_module(private/run/waits, [waited/1]).

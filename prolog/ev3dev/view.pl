@@ -9,10 +9,10 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
+:- use_module(private/checks/checks, [evaluated/2, must_be/2]).
 :- use_module(private/errors/errors,
-              [ domain_error/2, evaluated/2, in_own_name/1, must_be/2,
-                term_expansion/4, throw_error/3
-              ]).
+              [domain_error/2, in_own_name/1, throw_error/3]).
+:- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments, [must_be_options/3, option/3]).
 :- use_module(private/processes/browser, [open_browser/2]).
 :- use_module(private/native/native,

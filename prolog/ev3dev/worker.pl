@@ -2,7 +2,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
 :- use_module(private/processes/descriptors, [taken/3]).
-:- use_module(private/errors/errors, [goal_of_program/1]).
+:- use_module(private/errors/frames, [goal_of_program/1]).
 :- use_module(private/bricks/far_frames,
               [ beat/1, protocol/1, receive_frames/2, send_frame/4 ]).
 :- use_module(private/native/native, [stop_all_bricks_/0]).

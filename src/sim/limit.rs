@@ -19,7 +19,7 @@ natives! {
         let rounds = waiting::rounds();
         let number = id.get()?;
         LIMITS.with_borrow_mut(|limits| limits.push(number));
-        let result = context.ask(pred!("ev3dev_errors:goal_of_program/1"), [goal]);
+        let result = context.ask(pred!("ev3dev_frames:goal_of_program/1"), [goal]);
         LIMITS.with_borrow_mut(Vec::pop);
         if matches!(result, Err(PrologError::Exception)) && is_left(context, id) {
             context.clear_exception();

@@ -513,7 +513,7 @@ prints(search(_, m, _)).
 %   been done, and Program remains.
 
 begun(E0, E, S, X) :-
-    ev3dev_golog_domain:situation([], S0, X),
+    ev3dev_golog_progression:situation([], S0, X),
     once(first_action(E0, S0, E, S, X)).
 
 first_action(E0, S0, E, S, X) :-
@@ -525,7 +525,7 @@ first_action(E0, S0, E, S, X) :-
     ).
 
 done_first(S, A) :-
-    ev3dev_golog_domain:situation_history(S, [A|_]).
+    ev3dev_golog_situation:situation_history(S, [A|_]).
 
 lab_context(Words, X) :-
     ev3dev_golog_theory:prepare(golog_lab),
@@ -534,10 +534,10 @@ lab_context(Words, X) :-
 %   What Program may do next in Situation; `none` is a step without an action.
 
 next_actions(E, S, X, As) :-
-    ev3dev_golog_domain:situation_history(S, H),
+    ev3dev_golog_situation:situation_history(S, H),
     findall(A,
             ( ev3dev_golog_transitions:step(E, S, _, S1, X),
-              ev3dev_golog_domain:situation_history(S1, H1),
+              ev3dev_golog_situation:situation_history(S1, H1),
               (   H1 = [A|H]
               ->  true
               ;   A = none
@@ -640,11 +640,11 @@ test(interrupts_that_stop_end_what_they_have_begun,
        true(Left-As == []-[a]) ]) :-
     % None can take a step before it rings.
     lab_context([], X),
-    ev3dev_golog_domain:situation([], S0, X),
+    ev3dev_golog_progression:situation([], S0, X),
     once(ev3dev_golog_transitions:step(prioritized_interrupts([Whole]), S0,
                                        E, S1, X)),
     findall(I, ( part_of(E, I), I = interrupt(_, _) ), Left),
-    ev3dev_golog_domain:done(ring, S1, S2, X),
+    ev3dev_golog_progression:done(ring, S1, S2, X),
     % The test, in sync/1 together with the action
     (   ev3dev_golog_transitions:step(E, S2, E1, S2, X)
     ->  true
@@ -670,7 +670,7 @@ steps_and_end(E, S, X, Steps-End) :-
     findall(H-Next,
             ( ev3dev_golog_transitions:step(E, S, Next0, S1, X),
               simple(Next0, Next, X),
-              ev3dev_golog_domain:situation_history(S1, H) ),
+              ev3dev_golog_situation:situation_history(S1, H) ),
             Steps0),
     msort(Steps0, Steps),
     (   ev3dev_golog_transitions:is_final(E, S, X)

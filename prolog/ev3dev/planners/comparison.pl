@@ -2,7 +2,7 @@
           [ compare_planners/3          % +Map, +Goal, +Options
           ]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module('../private/errors/errors', [must_be/2]).
+:- use_module('../private/checks/checks', [must_be/2]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../private/grid/compass').

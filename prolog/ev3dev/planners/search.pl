@@ -7,8 +7,9 @@
             replan/5                    % +Start, +Changed, -Result,
                                         % +Planning0, -Planning
           ]).
-:- use_module('../private/errors/errors',
-              [domain_error/2, must_be/2, term_expansion/4]).
+:- use_module('../private/checks/checks', [must_be/2]).
+:- use_module('../private/errors/errors', [domain_error/2]).
+:- use_module('../private/errors/public_clauses', [term_expansion/4]).
 :- use_module('../private/errors/domains', [finite/1]).
 :- use_module(best_first).
 :- use_module(breadth_first).

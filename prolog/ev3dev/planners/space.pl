@@ -6,10 +6,9 @@
             space_ways/3,               % +Space, +State, -Nexts
             space_estimate/4            % +Space, +From, +Goals, -Estimate
           ]).
+:- use_module('../private/checks/checks', [must_be/2]).
 :- use_module('../private/errors/errors',
-              [ domain_error/2, existence_error/2, instantiation_error/1,
-                must_be/2
-              ]).
+              [domain_error/2, existence_error/2, instantiation_error/1]).
 :- use_module(library(option), [meta_options/3, option/3]).
 :- use_module('../private/checks/arguments', [must_be_options/3]).
 :- use_module('../private/errors/domains', [finite/1]).

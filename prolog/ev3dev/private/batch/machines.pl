@@ -7,7 +7,7 @@
               [ batch_step/3, end_workers/1, start_workers/2,
                 workers_ready/2 ]).
 :- use_module('../files/directory', [new_directory/2]).
-:- use_module('../errors/errors', [must_be/2]).
+:- use_module('../checks/checks', [must_be/2]).
 :- use_module('../processes/redis', [ask/3, connection_lost/1, with_redis/3]).
 :- use_module(library(filesex),
               [ delete_directory_and_contents/1, directory_file_path/3 ]).

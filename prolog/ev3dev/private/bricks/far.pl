@@ -7,8 +7,9 @@
             far_file/2                  % +Far, +File
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module('../checks/checks', [must_be/2]).
 :- use_module('../errors/errors',
-              [ error_within/3, in_own_name/1, must_be/2, throw_error/3 ]).
+              [error_within/3, in_own_name/1, throw_error/3]).
 :- use_module(far_frames,
               [ beat/1, protocol/1, receive_frames/2, send_frame/4 ]).
 :- use_module('../run/waits', [let_others_go_on/0]).

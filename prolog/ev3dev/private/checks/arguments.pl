@@ -20,8 +20,8 @@
             motor_moves/2               % +Moves, -Evaluated
           ]).
 :- use_module('../errors/domains', [in_range/2]).
-:- use_module('../errors/errors',
-              [domain_error/2, evaluated/2, must_be/2, throw_error/3]).
+:- use_module(checks, [evaluated/2, must_be/2]).
+:- use_module('../errors/errors', [domain_error/2, throw_error/3]).
 
 /** <module> Options and numbers that the pack's predicates are told
 

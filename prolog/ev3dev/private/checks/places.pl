@@ -3,7 +3,8 @@
             places/2                    % +Places, -Native
           ]).
 :- use_module(arguments, [number_value/2]).
-:- use_module('../errors/errors', [domain_error/2, must_be/2]).
+:- use_module(checks, [must_be/2]).
+:- use_module('../errors/errors', [domain_error/2]).
 
 /** <module> Places
 

@@ -8,7 +8,8 @@
             class_polarity/3            % +Class, ?Port, ?Polarity
           ]).
 :- use_module('../checks/arguments', [must_be_within/4, word/2]).
-:- use_module('../errors/errors', [domain_error/2, must_be/2]).
+:- use_module('../checks/checks', [must_be/2]).
+:- use_module('../errors/errors', [domain_error/2]).
 :- use_module('../explain/hints', [fail_because/1]).
 :- use_module('../native/native',
               [attribute_/4, attribute_write_/4, device_/4]).

@@ -4,7 +4,8 @@
             condition_goal/2            % :Condition, -Goal
           ]).
 :- use_module('../checks/arguments', [number_value/2]).
-:- use_module('../errors/errors', [must_be/2, throw_error/3]).
+:- use_module('../checks/checks', [must_be/2]).
+:- use_module('../errors/errors', [throw_error/3]).
 :- use_module('../../sensors', [reading_of/4]).
 
 :- meta_predicate condition_goal(:, -).

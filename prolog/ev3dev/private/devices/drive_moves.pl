@@ -8,7 +8,8 @@
             must_be_move_options/1,     % +Options
             backwards/2                 % +Direction, -Backwards
           ]).
-:- use_module('../errors/errors', [evaluated/2, must_be/2, term_expansion/4]).
+:- use_module('../checks/checks', [evaluated/2, must_be/2]).
+:- use_module('../errors/public_clauses', [term_expansion/4]).
 :- use_module('../explain/hints').
 :- use_module('../checks/arguments',
               [ must_be_options/3, number_option/4, number_value/3, option/2,

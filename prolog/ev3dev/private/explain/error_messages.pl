@@ -1,9 +1,9 @@
 :- module(ev3dev_error_messages,
           [ in_words//1                 % +Message
           ]).
-:- use_module('../errors/errors',
-              [ in_pack/3, is_of_system/1, is_public/2, is_word/1,
-                named_called/2 ]).
+:- use_module('../errors/errors', [named_called/2]).
+:- use_module('../errors/error_texts', [is_word/1]).
+:- use_module('../errors/frames', [in_pack/3, is_of_system/1, is_public/2]).
 :- use_module(unknown_procedures,
               [form_of/2, known_mistake/1, unqualified/2]).
 :- use_module('../native/native', [running_/1]).

@@ -5,7 +5,8 @@
             explain/2                   % +Format, +Arguments
           ]).
 :- use_module('../run/brick', [is_simulated/0]).
-:- use_module('../errors/errors', [called_by_program/1, throw_error/3]).
+:- use_module('../errors/errors', [throw_error/3]).
+:- use_module('../errors/frames', [called_by_program/2]).
 :- use_module('../native/native',
               [ attribute_/4, device_/3, led_/3, motor_gear_/2,
                 sim_detecting_/1, sysfs_/1
@@ -127,7 +128,7 @@ prolog:message(ev3dev(hint(Text))) -->
 %   that a program that runs for days does not fill the memory.
 
 is_new(Cause) :-
-    (   called_by_program(Called)
+    (   called_by_program(_, Called)
     ->  true
     ;   Called = none
     ),

@@ -3,7 +3,7 @@
             form_of/2,                  % +Predicate, -Form
             unqualified/2               % ?Predicate0, -Predicate
           ]).
-:- use_module('../errors/errors', [in_pack/3, is_public/2]).
+:- use_module('../errors/frames', [in_pack/3, is_public/2]).
 
 /** <module> A predicate that there is not
 

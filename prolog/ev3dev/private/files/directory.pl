@@ -6,8 +6,9 @@
             new_directory/2,            % +Base, -Directory
             write_file/2                % +File, :Closure
           ]).
+:- use_module('../checks/checks', [must_be/2]).
 :- use_module('../errors/errors',
-              [existence_error/2, in_own_name/1, must_be/2, throw_error/3]).
+              [existence_error/2, in_own_name/1, throw_error/3]).
 :- use_module('../native/native', [stale_mount_/1]).
 
 :- meta_predicate write_file(+, 1).

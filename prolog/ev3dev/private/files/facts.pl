@@ -6,8 +6,9 @@
             throw_located/3             % +Formal, +Location, +Why
           ]).
 :- use_module(directory, [readable_file/3]).
-:- use_module('../errors/errors',
-              [in_own_name/1, must_be/2, shown/2, throw_error/3]).
+:- use_module('../checks/checks', [must_be/2]).
+:- use_module('../errors/errors', [in_own_name/1, throw_error/3]).
+:- use_module('../errors/error_texts', [shown/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../native/native', [sim_check_/2]).
 

@@ -27,8 +27,9 @@
 :- use_module(effort, [effort/4, watched_effort/3]).
 :- use_module(hints, [hint/3]).
 :- use_module(theory, [has_possible_values/1, located/3]).
-:- use_module('../errors/errors',
-              [goal_of_program/1, must_be/2, throw_error/3]).
+:- use_module('../checks/checks', [must_be/2]).
+:- use_module('../errors/errors', [throw_error/3]).
+:- use_module('../errors/frames', [goal_of_program/1]).
 
 /** <module> What the interpreter carries along
 

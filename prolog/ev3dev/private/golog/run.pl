@@ -12,10 +12,9 @@
                 recorded_step/3, recording/4, unblock/0, was_blocked/2,
                 was_given_up/2
               ]).
-:- use_module(domain,
-              [ done/4, entries_done/4, history_shortened/3, situation/3,
-                situation_count/2, situation_history/2
-              ]).
+:- use_module(progression, [done/4, entries_done/4, situation/3]).
+:- use_module(situation,
+              [history_shortened/3, situation_count/2, situation_history/2]).
 :- use_module(effort, [how_far/2, in_trial/1]).
 :- use_module(queue, [queue_put/2]).
 :- use_module(search, [replanned_since/1]).

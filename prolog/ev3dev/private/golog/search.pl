@@ -8,11 +8,12 @@
               [ context_effort/2, context_module/2, context_option/2,
                 gave_up/2, searching/4
               ]).
-:- use_module(domain,
-              [ assumed/3, branch_on/3, done/4, fluents_now/3, holds/3,
-                marked/3, opened/4, sensed_later/4, situation_count/2,
-                situation_history/2
-              ]).
+:- use_module(branches, [branch_on/3, opened/4, sensed_later/4]).
+:- use_module(conditions, [holds/3]).
+:- use_module(progression, [done/4]).
+:- use_module(situation,
+              [assumed/3, marked/3, situation_count/2, situation_history/2]).
+:- use_module(values, [fluents_now/3]).
 :- use_module(effort, [counted/2, effort_id/2, how_far/2, polled/1]).
 :- use_module(visited_states, [state_key/4, states_forgotten/1, tried/5]).
 :- use_module(relaxed, [task/5, task_plan/4]).

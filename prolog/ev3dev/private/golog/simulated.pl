@@ -4,7 +4,7 @@
             simulation_kept/1           % :Goal
           ]).
 :- use_module(context, [context_module/2]).
-:- use_module(domain, [entries_done/4]).
+:- use_module(progression, [entries_done/4]).
 :- use_module(theory, [has_clauses/2]).
 :- use_module(world, [run_directly/4, sensing_entries/4]).
 

@@ -20,10 +20,10 @@
               [ blocked/2, context_module/2, context_option/2, entered/4,
                 is_recorded/1, noted/2, recorded_step/3, stepping/2
               ]).
-:- use_module(domain,
-              [ chosen/3, domain_value/4, done/4, evaluated_arguments/4,
-                holds/3, marked/3, situation_count/2, situation_history/2
-              ]).
+:- use_module(conditions, [chosen/3, domain_value/4, holds/3]).
+:- use_module(progression, [done/4]).
+:- use_module(situation, [marked/3, situation_count/2, situation_history/2]).
+:- use_module(values, [evaluated_arguments/4]).
 :- use_module(hints, [hint/3]).
 :- use_module(programs,
               [construct/1, fresh/4, mapped/3, parts/5, weak_construct/1]).

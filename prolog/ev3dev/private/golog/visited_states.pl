@@ -4,7 +4,7 @@
             states_forgotten/1          % +Effort
           ]).
 :- use_module(context, [context_effort/2]).
-:- use_module(domain, [situation_state/2]).
+:- use_module(situation, [situation_state/2]).
 :- use_module(effort, [asked_history/1, effort_id/2, in_trial/1]).
 
 /** <module> States that a search knows

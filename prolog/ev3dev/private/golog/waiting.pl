@@ -132,7 +132,7 @@ loaded :-
     ;   module_property(ev3dev_golog_waiting, file(Here)),
         file_directory_name(Here, Directory),
         atom_concat(Directory, '/../../time', Time),
-        atom_concat(Directory, '/../causes', Causes),
+        atom_concat(Directory, '/../journal/causes', Causes),
         load_files(ev3dev_golog_waiting:[Time, Causes],
                    [if(not_loaded), imports([])])
     ).

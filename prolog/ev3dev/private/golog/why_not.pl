@@ -5,10 +5,10 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(context,
               [context_module/2, in_mode/3, recorded_step/3, recording/4]).
-:- use_module(domain,
-              [ fluent_in/4, fluent_value/4, holds/3, situation_count/2,
-                situation_history/2
-              ]).
+:- use_module(branches, [fluent_in/4]).
+:- use_module(conditions, [holds/3]).
+:- use_module(situation, [situation_count/2, situation_history/2]).
+:- use_module(values, [fluent_value/4]).
 :- use_module(programs, [fresh/4, parts/5]).
 :- use_module(theory,
               [clause_location/2, has_clauses/2, is_kind/3, proc_body/3]).

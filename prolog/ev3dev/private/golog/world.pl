@@ -25,7 +25,8 @@
               [queue_end/1, queue_new/1, queue_put/2, queue_take/2]).
 :- use_module(waiting, [guarded/2, run_watched/3]).
 :- use_module('../run/brick', [brick/1]).
-:- use_module('../errors/errors', [goal_of_program/1, throw_error/3]).
+:- use_module('../errors/errors', [throw_error/3]).
+:- use_module('../errors/frames', [goal_of_program/1]).
 
 /** <module> The world: how actions are executed, and what happens by itself
 

@@ -6,7 +6,7 @@
             grid_ahead/3,               % +Cell, +Direction, -Ahead
             grid_beside/4               % +Cell, +Direction, -Left, -Right
           ]).
-:- use_module('../errors/errors', [term_expansion/4]).
+:- use_module('../errors/public_clauses', [term_expansion/4]).
 :- use_module(library(lists), [nth0/3]).
 
 /** <module> Directions on a grid

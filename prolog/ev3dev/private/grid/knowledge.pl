@@ -9,7 +9,7 @@
             known_free/1                % ?Cell
           ]).
 :- use_module('../run/brick', [brick/1]).
-:- use_module('../errors/errors', [term_expansion/4]).
+:- use_module('../errors/public_clauses', [term_expansion/4]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../driver', []).
 :- use_module(map, [must_be_cell/1]).

@@ -16,8 +16,9 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, list_to_assoc/2]).
-:- use_module('../errors/errors',
-              [domain_error/2, must_be/2, term_expansion/4]).
+:- use_module('../checks/checks', [must_be/2]).
+:- use_module('../errors/errors', [domain_error/2]).
+:- use_module('../errors/public_clauses', [term_expansion/4]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [meta_options/3, option/2, option/3]).
 :- use_module(compass).

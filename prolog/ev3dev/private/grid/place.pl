@@ -10,7 +10,7 @@
             set_pose_in/3               % +Metric, +Cell, +Direction
           ]).
 :- use_module('../run/brick', [brick/1]).
-:- use_module('../errors/errors', [term_expansion/4]).
+:- use_module('../errors/public_clauses', [term_expansion/4]).
 :- use_module('../explain/hints', [fail_because/1]).
 :- use_module('../../drive', [set_pose/3]).
 :- use_module(compass).

@@ -3,7 +3,8 @@
             grid_changed/3              % +Map, +Cells, -States
           ]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module('../errors/errors', [must_be/2, term_expansion/4]).
+:- use_module('../checks/checks', [must_be/2]).
+:- use_module('../errors/public_clauses', [term_expansion/4]).
 :- use_module(library(lists), [member/2, nth0/3]).
 :- use_module(compass).
 :- use_module(map).

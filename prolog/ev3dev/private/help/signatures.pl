@@ -3,7 +3,7 @@
             arities/2,                  % +Name, -Predicates
             meant/2                     % +Predicate, -Predicates
           ]).
-:- use_module('../errors/errors', [is_public/2]).
+:- use_module('../errors/frames', [is_public/2]).
 :- use_module(help_words, [words_for/2]).
 :- use_module(libraries, [in_library/2]).
 

@@ -3,7 +3,7 @@
             roadmap_options/2,          % +Options, -Native
             sensor_option/2             % +Options, -Sensor
           ]).
-:- use_module('../errors/errors', [must_be/2]).
+:- use_module('../checks/checks', [must_be/2]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module('../files/facts', [located_facts/3]).
 :- use_module('../checks/arguments',

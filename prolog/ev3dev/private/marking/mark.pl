@@ -6,7 +6,8 @@
 :- use_module('../../sim_batch', [sim_batch/5]).
 :- use_module('../../sim_fenced', [can_enclose/0]).
 :- use_module('../checks/arguments', [option/2, option/3]).
-:- use_module('../errors/errors', [domain_error/2, in_own_name/1, must_be/2]).
+:- use_module('../checks/checks', [must_be/2]).
+:- use_module('../errors/errors', [domain_error/2, in_own_name/1]).
 :- use_module(read,
               [ exercise_seeds/3, exercise_setting/3, forbidden/3,
                 program_terms/2, read_exercise/2, seed_list/2 ]).

@@ -14,7 +14,8 @@
               [ read_on_/0, serve_if_due_/0, tick_after_/1, tick_at_once_/0
               ]).
 :- use_module('../basics/small_lists', [append_lists/3, one_of/2]).
-:- use_module('../errors/errors', [goal_of_program/1, throw_error/3]).
+:- use_module('../errors/errors', [throw_error/3]).
+:- use_module('../errors/frames', [goal_of_program/1]).
 
 :- meta_predicate
     listening(+, 1, 0),

@@ -7,7 +7,7 @@
             clock/1                     % -Seconds
           ]).
 :- use_module('../run/brick', [brick/1]).
-:- use_module('../errors/errors', [goal_of_program/1]).
+:- use_module('../errors/frames', [goal_of_program/1]).
 :- use_module('../native/native', [sim_clock_/1, sim_plan_/1]).
 
 :- meta_predicate

@@ -4,7 +4,8 @@
             forget_plans/0
           ]).
 :- use_module('../run/brick', [brick/1]).
-:- use_module('../errors/errors', [goal_of_program/1, throw_error/3]).
+:- use_module('../errors/errors', [throw_error/3]).
+:- use_module('../errors/frames', [goal_of_program/1]).
 :- use_module('../native/native', [limit_call_/2, limit_insist_/4]).
 :- use_module(schedule,
               [clock/1, plan/3, plan/4, planned/4, unplan/1]).

@@ -1,0 +1,293 @@
+:- module(ev3dev_error_texts,
+          [ in_words/2,                 % +Formal, -Text
+            not_one_of/3,               % +Term, +Values, -Text
+            no_value/3,                 % ?Variable, +Frame, -Text
+            shown/2,                    % +Term, -Shown
+            is_word/1                   % +Atom
+          ]).
+:- use_module(domains, [allowed/2]).
+:- use_module('../basics/small_lists', [one_of/2]).
+
+/** <module> Errors in words
+
+What is wrong with a term, and which values are allowed.
+*/
+
+%!  in_words(+Formal, -Text) is semidet.
+%
+%   Text explains the ISO term Formal.
+
+in_words(type_error(evaluable, Name/0), Text) :-
+    !,
+    format(atom(Text), 'a number is expected, not ~q', [Name]).
+in_words(type_error(evaluable, Function), Text) :-
+    !,
+    format(atom(Text), 'there is no arithmetic function ~q', [Function]).
+in_words(type_error(Type, Term), Text) :-
+    memberchk(Type, [[], character]),   % of is/2, for a string or a list
+    !,
+    in_words(type_error(number, Term), Text).
+in_words(type_error(list, Term), Text) :-
+    callable(Term),
+    Term \= [_|_],
+    !,
+    shown(Term, Shown),
+    format(atom(Text), 'a list is expected, not ~w. Did you mean [~w]?',
+           [Shown, Shown]).
+in_words(type_error(Type, Term), Text) :-
+    kind(Type, Wanted),
+    shown(Term, Shown),
+    format(atom(Text), '~w is expected, not ~w', [Wanted, Shown]).
+in_words(domain_error(Domain, Term), Text) :-
+    allowed(Domain, What),
+    !,
+    (   is_list(What)
+    ->  not_one_of(Term, What, Text)
+    ;   shown(Term, Shown),
+        format(atom(Text), '~w, not ~w', [What, Shown])
+    ).
+in_words(domain_error(Domain, Term), Text) :-
+    words_of(Domain, Words),
+    shown(Term, Shown),
+    format(atom(Text), '~w cannot be a ~w', [Shown, Words]).
+in_words(existence_error(source_sink, File), Text) :-
+    !,
+    shown(File, Shown),
+    format(atom(Text), 'there is no file ~w, or no folder for it', [Shown]).
+in_words(existence_error(Kind, Name), Text) :-
+    words_of(Kind, Words),
+    shown(Name, Shown),
+    format(atom(Text), 'there is no ~w ~w', [Words, Shown]).
+in_words(evaluation_error(What), Text) :-
+    words_of(What, Text).
+in_words(representation_error(int64_t), Text) :-
+    !,
+    Text = 'an integer of at most 64 bits is expected'.
+in_words(representation_error(What), Text) :-
+    words_of(What, Words),
+    format(atom(Text), 'beyond the ~w', [Words]).
+
+kind(atom, 'an atom or a string') :- !.
+kind(callable, 'a goal') :- !.
+kind(bool, 'true or false') :- !.
+kind(list, 'a list') :- !.
+kind(integer, 'an integer') :- !.
+kind(nonneg, 'an integer from 0 on') :- !.
+kind(positive_integer, 'an integer from 1 on') :- !.
+kind(Type, Text) :-
+    words_of(Type, Words),
+    format(atom(Text), 'a ~w', [Words]).
+
+words_of(Name, Words) :-
+    (   atom(Name)
+    ->  atomic_list_concat(Parts, '_', Name),
+        atomic_list_concat(Parts, ' ', Words)
+    ;   format(atom(Words), '~p', [Name])
+    ).
+
+%!  not_one_of(+Term, +Values, -Text) is det.
+%
+%   Text says that Term is not one of Values.
+
+not_one_of(Term, Values, Text) :-
+    quoted(Values, Atoms),
+    atomic_list_concat(Atoms, ', ', Listed),
+    shown(Term, Shown),
+    (   nearly(Term, Values, Value)
+    ->  format(atom(Text), '~w is not one of: ~w. Did you mean ~w?',
+               [Shown, Listed, Value])
+    ;   format(atom(Text), '~w is not one of: ~w', [Shown, Listed])
+    ).
+
+%   The only one of Values that is spelt nearly as Term, or begins so. Of an
+%   option the name counts.
+
+nearly(Term, Values, Value) :-
+    (   atom(Term)
+    ->  Name = Term
+    ;   compound(Term),
+        compound_name_arity(Term, Name, 1)
+    ),
+    is_latin(Name),
+    downcase_atom(Name, Low),
+    (   findall(Near, ( one_of(Values, Near), spelt(Low, Near) ), [Value])
+    ->  true
+    ;   atom_length(Low, Length),
+        Length > 2,
+        findall(Longer, ( one_of(Values, Longer), starts(Low, Longer) ),
+                [Value])
+    ).
+
+%   downcase_atom/2 throws for other characters, as half of a surrogate pair.
+
+is_latin(Name) :-
+    atom(Name),
+    \+ ( sub_atom(Name, _, 1, _, Character),
+         Character @> '\xFF\'
+       ).
+
+spelt(Low, Value) :-
+    atom(Value),
+    (   Value == Low
+    ->  true
+    ;   dwim_match(Low, Value)
+    ).
+
+starts(Low, Value) :-
+    atom(Value),
+    (   atom_concat(Low, _, Value)
+    ->  true
+    ;   atom_concat(Value, _, Low),
+        atom_length(Value, Length),
+        Length > 2
+    ).
+
+quoted([], []).
+quoted([Value|Values], [Atom|Atoms]) :-
+    format(atom(Atom), '~w', [Value]),
+    quoted(Values, Atoms).
+
+%!  shown(+Term, -Shown) is det.
+%
+%   Shown is a Term as a program has it, with `_` for each variable. Of a long
+%   or deep one it is the beginning.
+
+shown(Term, Shown) :-
+    copy_term(Term, Copy, _),
+    term_variables(Copy, Variables),
+    all_same(Variables, '$VAR'('_')),
+    format(atom(Whole), '~W',
+           [ Copy,
+             [ quoted(true), numbervars(true), portray(true), max_depth(20) ]
+           ]),
+    (   sub_atom(Whole, 0, 500, After, Begin),
+        After > 3
+    ->  atom_concat(Begin, ..., Shown)
+    ;   Shown = Whole
+    ).
+
+all_same([], _).
+all_same([Term|Terms], Term) :-
+    all_same(Terms, Term).
+
+                /*******************************
+                *     VARIABLES, NO VALUES     *
+                *******************************/
+
+%!  no_value(?Variable, +Frame, -Text) is det.
+%
+%   Text says which variable has no value in the call of Frame: Variable, or
+%   the first one in its arguments. In a query of the toplevel it has a name.
+%   (The garbage collector forgets the arguments of a frame that are not used
+%   any more. Then it is the first variable of the query.)
+
+no_value(Variable, Frame, Text) :-
+    (   Frame \== none,
+        var(Variable),
+        names_in_query(Frame, Names),
+        name_of(Names, Variable, Name)
+    ->  named(Name, Text)
+    ;   Frame \== none,
+        arguments(Frame, Arguments)
+    ->  (   \+ place(Arguments, '<garbage_collected>', 1, _),
+            missing(Arguments, Variable, Missing)
+        ->  (   names_in_query(Frame, Names),
+                name_of(Names, Missing, Name)
+            ->  named(Name, Text)
+            ;   place(Arguments, Missing, 1, Place)
+            ->  nth(Place, Nth),
+                format(atom(Text),
+                       'the ~w argument is a variable without a value',
+                       [Nth])
+            ;   Text = 'a part of an argument is a variable without a value'
+            )
+        ;   names_in_query(Frame, Names),
+            first_variable(Names, Name)
+        ->  named(Name, Text)
+        ;   Text = 'an argument is a variable without a value'
+        )
+    ;   Text = 'an argument is a variable without a value'
+    ).
+
+arguments(Frame, Arguments) :-
+    prolog_frame_attribute(Frame, goal, Goal0),
+    (   Goal0 = _:Goal
+    ->  true
+    ;   Goal = Goal0
+    ),
+    Goal =.. [_|Arguments].
+
+missing(Arguments, Variable, Missing) :-
+    term_variables(Arguments, Variables),
+    (   var(Variable),
+        place(Variables, Variable, 1, _)
+    ->  Missing = Variable
+    ;   Variables = [Missing|_]         % outputs are the last arguments
+    ).
+
+place([Term|Terms], Wanted, Place0, Place) :-
+    (   Term == Wanted
+    ->  Place = Place0
+    ;   Place1 is Place0 + 1,
+        place(Terms, Wanted, Place1, Place)
+    ).
+
+nth(Place, Nth) :-
+    (   arg(Place, nth(first, second, third, fourth), Nth)
+    ->  true
+    ;   format(atom(Nth), '~dth', [Place])
+    ).
+
+%   The toplevel keeps the names of a query as a list of Name=Value.
+
+names_in_query(Frame, Names) :-
+    prolog_frame_attribute(Frame, parent, Parent),
+    (   prolog_frame_attribute(Parent, predicate_indicator, Indicator),
+        (   Indicator = _:'$execute_goal2'/_
+        ;   Indicator = '$execute_goal2'/_
+        )
+    ->  prolog_frame_attribute(Parent, argument(2), Names)
+    ;   names_in_query(Parent, Names)
+    ).
+
+name_of([Name0=Value|Names], Variable, Name) :-
+    (   Value == Variable
+    ->  Name = Name0
+    ;   name_of(Names, Variable, Name)
+    ).
+
+first_variable([Name0=Value|Names], Name) :-
+    (   var(Value)
+    ->  Name = Name0
+    ;   first_variable(Names, Name)
+    ).
+
+%   A port or another word of the pack was meant, as by `OutB`.
+
+named(Name, Text) :-
+    (   sub_atom(Name, 0, 1, _, Upper),
+        sub_atom(Name, 1, _, 0, Rest),
+        downcase_atom(Upper, Lower),
+        atom_concat(Lower, Rest, Word),
+        is_word(Word)
+    ->  format(atom(Text),
+               '~w begins with an upper-case letter, so it is a variable, \c
+                and has no value. Did you mean ~w?', [Name, Word])
+    ;   format(atom(Text), '~w is a variable without a value', [Name])
+    ).
+
+%!  is_word(+Atom) is semidet.
+%
+%   True if Atom is a port, or an allowed value of a domain.
+
+is_word(Word) :-
+    (   atom_concat(out, Letter, Word),
+        memberchk(Letter, ['A', 'B', 'C', 'D'])
+    ;   atom_concat(in, Digit, Word),
+        memberchk(Digit, ['1', '2', '3', '4'])
+    ;   allowed(Domain, Words),
+        \+ sub_atom(Domain, _, _, 0, option),
+        is_list(Words),
+        memberchk(Word, Words)
+    ),
+    !.

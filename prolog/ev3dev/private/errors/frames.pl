@@ -1,0 +1,94 @@
+:- module(ev3dev_frames,
+          [ called_by_program/2,        % -Frame, -Called
+            goal_of_program/1,          % :Goal
+            in_pack/3,                  % +Predicate, -Module, -Indicator
+            is_of_system/1,             % +Predicate
+            is_public/2                 % ?Module, +Indicator
+          ]).
+
+/** <module> The frames between an error and the program
+
+The walk begins at the frame of the error and goes outward to the program's
+own code. It takes the last exported predicate of the pack. Only an error pays
+for it.
+*/
+
+:- meta_predicate goal_of_program(0).
+
+%!  goal_of_program(:Goal) is nondet.
+%
+%   Call a Goal of the program. Its errors name the predicate that Goal
+%   called, and not the one that calls Goal.
+
+goal_of_program(Goal) :-
+    call(Goal),
+    true.
+
+%!  called_by_program(-Frame, -Called) is semidet.
+%
+%   Called is the exported predicate, Name/Arity, that the program has called,
+%   and Frame is the frame of this call.
+
+called_by_program(Frame, Called) :-
+    prolog_current_frame(Current),
+    called(Current, none, Found),
+    Found = Frame-Called.
+
+%   The last exported predicate of the pack between Frame and the program.
+
+called(Frame, Called0, Called) :-
+    prolog_frame_attribute(Frame, predicate_indicator, Indicator),
+    (   Indicator == goal_of_program/1  % of this module
+    ->  Called = Called0
+    ;   in_pack(Indicator, Module, Predicate)
+    ->  (   is_public(Module, Predicate)
+        ->  Called1 = Frame-Predicate
+        ;   Called1 = Called0
+        ),
+        outwards(Frame, Called1, Called)
+    ;   is_of_system(Indicator)
+    ->  outwards(Frame, Called0, Called)
+    ;   Called = Called0
+    ).
+
+outwards(Frame, Called0, Called) :-
+    (   prolog_frame_attribute(Frame, parent, Parent)
+    ->  called(Parent, Called0, Called)
+    ;   Called = Called0
+    ).
+
+%!  in_pack(+Indicator, -Module, -Predicate) is semidet.
+%
+%   True if Indicator, that of a frame, is Module:Predicate of the pack.
+
+in_pack(Module:Predicate, Module, Predicate) :-
+    sub_atom(Module, 0, _, _, ev3dev).
+
+%!  is_public(?Module, +Predicate) is semidet.
+%
+%   True if a public library exports the Predicate of Module, Name/Arity. The
+%   library may import it from a private module.
+
+is_public(Module, Name/Arity) :-
+    functor(Head, Name, Arity),
+    predicate_property(Module:Head, exported),
+    current_module(Library),
+    sub_atom(Library, 0, _, _, ev3dev),
+    module_property(Library, file(File)),
+    \+ sub_atom(File, _, _, _, '/private/'),
+    module_property(Library, exports(Exports)),
+    memberchk(Name/Arity, Exports),
+    (   Library == Module
+    ->  true
+    ;   predicate_property(Library:Head, imported_from(Module))
+    ),
+    !.
+
+%!  is_of_system(+Indicator) is semidet.
+%
+%   True if Indicator, that of a frame, is one of Prolog's own predicates.
+
+is_of_system(_/_).
+is_of_system(Module:_) :-
+    module_property(Module, class(Class)),
+    memberchk(Class, [system, library]).
