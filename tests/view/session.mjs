@@ -114,6 +114,10 @@ export function patient(page) {
   return page;
 }
 
+/** What a browser says of a connection that a busy machine has lost: the page makes another one,
+    without which the tests fail. */
+const LOST = /establish a connection to the server at ws:|connection to ws:.* was interrupted/;
+
 /** A page at an address; keeps what its console said and what it asked for. What the program
     says comes `late`, by so many ms. */
 export async function open(browser, url, { width = 1280, height = 800, scheme = 'light', phone = false, scale = 1, late = 0 } = {}) {
@@ -121,7 +125,7 @@ export async function open(browser, url, { width = 1280, height = 800, scheme = 
   if (late) await page.evaluateOnNewDocument(comesLate, late);
   page.said = [];
   page.requests = [];
-  page.on('console', (message) => page.said.push(`${message.type()}: ${message.text()}`));
+  page.on('console', (message) => LOST.test(message.text()) || page.said.push(`${message.type()}: ${message.text()}`));
   page.on('pageerror', (error) => page.said.push(`error: ${error.message}`));
   page.on('request', (request) => page.requests.push(request.url()));
   if (!isFirefox) await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }]);
