@@ -105,10 +105,9 @@ fn pose_is_set(believed: Pose) {
     let Some(simulation) = watched_simulation() else {
         return counts_in_world();
     };
-    let ev3_sim::Pose { x, y, heading } = simulation.machine().pose();
-    let real = Pose { x, y, heading };
-    let is_near = (believed.x - x).hypot(believed.y - y) <= NEAR
-        && wrapped(believed.heading - heading).abs() <= ABOUT;
+    let real = simulation.machine().pose();
+    let is_near = (believed.x - real.x).hypot(believed.y - real.y) <= NEAR
+        && wrapped(believed.heading - real.heading).abs() <= ABOUT;
     *state::watched().frame() = (!is_near).then_some(Frame { believed, real });
 }
 

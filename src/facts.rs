@@ -7,7 +7,7 @@ use crate::glue::terms::Ask as _;
 use ev3_sim::facts::{Fact, Subject};
 use ev3_sim::{
     Bounds, Drawing, Drawn, Echo, Hull, Item, MotorMount, Noise, Part, Pose, SensorMount,
-    SpecError, Wheel,
+    SpecError, Wheel, check_bounds,
 };
 use std::str::FromStr;
 use swipl::prelude::*;
@@ -31,7 +31,7 @@ pub(crate) fn fact<'a, C: QueryableContextType>(
     must_be_ground(call, term)?;
     match &fact {
         Fact::Item(item) => impossible(call, term, item.validate())?,
-        Fact::Bounds(bounds) => impossible(call, term, bounds.validate())?,
+        Fact::Bounds(bounds) => impossible(call, term, check_bounds(bounds))?,
         _ => {}
     }
     Ok(Some(fact))

@@ -7,7 +7,7 @@ use ev3_driver::Registry;
 use ev3_driver::course::{Command, DriveOptions, Leg};
 use ev3_driver::journal::{Act, Course, Entry, LightChange, MotorCommand, Name};
 use ev3_driver::journal::{SoundCommand, origin, set_cause};
-use ev3_driver::lock::locked;
+use ev3_os::locked;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, Weak};

@@ -5,9 +5,9 @@ use crate::glue::error::wrong_because;
 use crate::glue::places::place_term;
 use crate::glue::terms::unify_atom;
 use crate::roadmap::map_of;
-use ev3_driver::lock::locked;
 use ev3_localize::{Cluster, Count, Field, Localizer, Mapper, Model, Options, Step, Unfit, Wander};
 use ev3_motion::{Pose, wrapped};
+use ev3_os::locked;
 use std::sync::{Arc, Mutex};
 use swipl::prelude::*;
 

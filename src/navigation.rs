@@ -35,26 +35,26 @@ natives! {
         let at = [number(&aside)?, number(&ahead)?];
         let mount = View { at, heading: number(&turned)?, range: number(range)? };
         let at = [number(&x)?, number(&y)?];
-        moved.unify(locked(&views.get_ex()?).look(at, number(&heading)?, mount))
+        moved.unify(views_in(&views.get_ex()?).look(at, number(&heading)?, mount))
     }
 
     /// views_forget_(+Views)
     semidet fn "views_forget_"(_context, views) {
-        locked(&views.get_ex()?).forget();
+        views_in(&views.get_ex()?).forget();
         Ok(())
     }
 
     /// views_block_(+Views, +Place)
     semidet fn "views_block_"(context, views, at) {
         let at = place(&Call::of(context, "navigate_to", 3), at)?;
-        locked(&views.get_ex()?).block(at);
+        views_in(&views.get_ex()?).block(at);
         Ok(())
     }
 
     /// views_obstacles_(+Views, +Facts, -Polygons)
     semidet fn "views_obstacles_"(context, views, facts, polygons) {
         let call = Call::of(context, "navigate_to", 3);
-        let found = locked(&views.get_ex()?).obstacles(&map_of(&call, facts)?);
+        let found = views_in(&views.get_ex()?).obstacles(&map_of(&call, facts)?);
         let corners = found.iter().filter_map(Obstacle::corners);
         let terms = corners.map(|corners| {
             let corners = places_term(&call, corners)?;
@@ -71,7 +71,7 @@ natives! {
         let [start, goal, margin] = call.arguments(way)?;
         let (start, goal, margin) =
             (place(&call, &start)?, place(&call, &goal)?, call.float(&margin)?);
-        let next = locked(&views.get_ex()?).next_step(&map, start, goal, margin, &options);
+        let next = views_in(&views.get_ex()?).next_step(&map, start, goal, margin, &options);
         match next {
             Ok(next) => step.unify(&step_term(&call, next)?),
             Err(why) => no_way(&call, step, why),
@@ -90,8 +90,8 @@ natives! {
     }
 }
 
-fn locked(seen: &Arc<SeenSoFar>) -> MutexGuard<'_, Views> {
-    ev3_driver::lock::locked(&seen.views)
+fn views_in(seen: &Arc<SeenSoFar>) -> MutexGuard<'_, Views> {
+    ev3_os::locked(&seen.views)
 }
 
 /// step(Heading, Length, Safe, Unseen, Rest, Way)

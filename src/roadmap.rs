@@ -4,9 +4,9 @@ use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_value};
 use crate::glue::places::{place, place_term, places, places_term};
 use crate::glue::terms::unify_atom;
+use ev3_motion::{OUT_OF_RANGE, is_in_range};
 use ev3_roadmap::{
-    Bounds, FARTHEST, Fault, Map, Method, NoWay, Obstacle, Options, Path, Segment, Solution,
-    is_in_range, plan, svg,
+    Fault, Map, Method, NoWay, Obstacle, Options, Path, Segment, Solution, plan, svg,
 };
 use ev3_sim::Item;
 use ev3_sim::facts::{Fact, Subject};
@@ -42,8 +42,7 @@ fn solve<'a, C: QueryableContextType>(
     let (from, to) = (place(call, start)?, place(call, goal)?);
     for (at, term) in [(from, start), (to, goal)] {
         if !at.into_iter().all(is_in_range) {
-            let why = format!("has a number beyond {FARTHEST}");
-            return wrong_because(call, "place", term, &why);
+            return wrong_because(call, "place", term, OUT_OF_RANGE);
         }
     }
     let found = plan(&map, from, to, &options);
@@ -109,8 +108,8 @@ fn polygon<'a, C: QueryableContextType>(
 
 fn add(map: &mut Map, fact: Fact) -> Result<(), Fault> {
     let items = match fact {
-        Fact::Bounds(ev3_sim::Bounds { low, high }) => {
-            *map = Map::new(map.obstacles().to_vec(), Some(Bounds { low, high }))?;
+        Fact::Bounds(bounds) => {
+            *map = Map::new(map.obstacles().to_vec(), Some(bounds))?;
             return Ok(());
         }
         Fact::Item(item) => vec![item],

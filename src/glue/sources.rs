@@ -1,6 +1,6 @@
 //! Sources of button events, which end together with the file system that they are read from.
 use ev3_driver::brick::buttons::Events;
-use ev3_driver::lock::locked;
+use ev3_os::locked;
 use std::sync::{Arc, Mutex, Weak};
 use swipl::prelude::*;
 

@@ -1,6 +1,6 @@
 //! Somebody watches the program: `prolog/ev3dev/view.pl`.
-use ev3_driver::lock::locked;
 use ev3_motion::Pose;
+use ev3_os::locked;
 use ev3_sim::is_outside;
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, Ordering};

@@ -1,8 +1,8 @@
 //! The simulated brick's buttons, speaker and screen as a [`Dev`].
 use ev3_driver::devfs::{Speaker, Stream};
 use ev3_driver::error::Access;
-use ev3_driver::lock::locked;
 use ev3_driver::{Devfs, Errno};
+use ev3_os::locked;
 use ev3_sim::{OpenDevice, Simulation};
 use std::io;
 use std::path::{Path, PathBuf};

@@ -6,7 +6,7 @@ use crate::glue::error::no_such;
 use crate::glue::state::brick_number;
 use crate::glue::terms::unify_atom;
 use ev3_driver::Error;
-use ev3_driver::lock::locked;
+use ev3_os::locked;
 use ev3_sim::far::wire::{Desk, Line, Next};
 use ev3_sim::{Clock, Simulation};
 use std::collections::BTreeMap;

@@ -28,8 +28,8 @@ use crate::glue::terms::unify_atom;
 use crate::glue::watch;
 use ev3_driver::Registry;
 use ev3_driver::device::sleep::Sleep;
-use ev3_driver::lock::locked;
 use ev3_driver::wait::Slices;
+use ev3_os::locked;
 use ev3_sim::facts::{Fact, Subject, culprit};
 use ev3_sim::{
     Action, Clock, Depth, Errno, ItemId, Machine, Options, RobotSpec, Simulation, SpecError,

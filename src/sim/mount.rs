@@ -4,7 +4,7 @@ use crate::glue::error::{no_such, wrong_because};
 use crate::glue::sources::close_sources;
 use crate::glue::state::{brick_number, dev, devices, use_default_dev, use_default_files};
 use ev3_driver::Registry;
-use ev3_driver::lock::locked;
+use ev3_os::locked;
 use ev3_sim::{Mount, MountError, Shared};
 use std::collections::BTreeMap;
 use std::error::Error;

@@ -9,7 +9,7 @@ use crate::glue::state::{
 };
 use crate::glue::waiting::tick_at_once;
 use crate::glue::watch;
-use ev3_driver::lock::locked;
+use ev3_os::locked;
 use ev3_sim::{Clock, ItemId, Machine, Misplaced, Simulation, robot_of};
 use std::collections::BTreeMap;
 use std::io;

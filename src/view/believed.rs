@@ -6,8 +6,8 @@ use super::state::{self, Decimal, OrNull, fine, text};
 use crate::glue::state::{known_drive, watched};
 use crate::glue::watch::Frame;
 use ev3_driver::drive::Believed;
-use ev3_driver::lock::locked;
 use ev3_motion::Pose;
+use ev3_os::locked;
 use std::sync::Mutex;
 use std::time::Duration;
 

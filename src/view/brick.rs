@@ -8,10 +8,10 @@ use super::state::{
 use crate::glue::state::{dev, devices};
 use ev3_driver::brick::{buttons, screen};
 use ev3_driver::drive::Believed;
-use ev3_driver::lock::locked;
 use ev3_driver::{Class, Device, Registry, motor};
 use ev3_json::Json;
 use ev3_os::Instant;
+use ev3_os::locked;
 use std::collections::VecDeque;
 use std::sync::Mutex;
 use std::time::Duration;

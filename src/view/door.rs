@@ -5,7 +5,7 @@ use crate::glue::call::{Call, Text};
 use crate::glue::terms::unify_atom;
 use crate::sim::watched_simulation;
 use ev3_door::{Door, Heard, Made, Page, Site, Visit};
-use ev3_driver::lock::locked;
+use ev3_os::locked;
 use ev3_signals::latch::{self, Reason};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};

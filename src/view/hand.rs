@@ -5,7 +5,7 @@ use crate::glue::error::{wrong_because, wrong_value};
 use crate::glue::state::watched;
 use crate::glue::terms::unify_atom;
 use crate::sim::watched_simulation;
-use ev3_driver::lock::locked;
+use ev3_os::locked;
 use ev3_sim::{Clock, ItemId, Port, Simulation};
 use std::sync::{Arc, Mutex};
 use swipl::prelude::*;

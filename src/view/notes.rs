@@ -1,7 +1,7 @@
 //! What pages get beside the state: the log, values of the program, and what seldom changes.
 use super::state::{Entry, Report};
-use ev3_driver::lock::locked;
 use ev3_json::Json;
+use ev3_os::locked;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Mutex, MutexGuard};
 

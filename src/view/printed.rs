@@ -1,7 +1,7 @@
 //! What the program prints, for the page's log.
 use super::reach::seconds;
-use ev3_driver::lock::locked;
 use ev3_os::Instant;
+use ev3_os::locked;
 use std::collections::VecDeque;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};

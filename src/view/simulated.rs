@@ -9,8 +9,8 @@ use super::state::{
 };
 use crate::glue::state::watched;
 use crate::sim::robot_name;
-use ev3_driver::lock::locked;
 use ev3_json::Json;
+use ev3_os::locked;
 use ev3_sim::{
     Bounds, Button, ItemId, MOTOR_KINDS, Machine, Pose, Sample, SensorKind, Shown, Simulation,
 };

@@ -11,8 +11,9 @@ mod site;
 pub use self::page::{Heard, Page};
 pub use self::site::{Made, Site};
 
-use self::page::{READING, locked, timespec};
+use self::page::{READING, timespec};
 use self::site::Reply;
+use ev3_os::locked;
 use nix::sys::signal::{SigSet, SigmaskHow};
 use rustix::event::{PollFd, PollFlags, poll};
 use std::io::{self, ErrorKind, Read, Write};

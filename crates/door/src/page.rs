@@ -1,8 +1,9 @@
 //! The messages of a websocket (RFC 6455).
+use ev3_os::locked;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{Shutdown, TcpStream};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 /// How long the other side may take to read a part of an answer.
@@ -258,8 +259,4 @@ fn closing(data: &[u8]) -> u16 {
 pub(crate) fn timespec(time: Duration) -> Timespec {
     // A time that is too long is for ever.
     Timespec::try_from(time).unwrap_or(Timespec { tv_sec: 1 << 30, tv_nsec: 0 })
-}
-
-pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -8,9 +8,9 @@
 //! thread has one at a time.
 use crate::class::Class;
 use crate::course::{Command, DriveOptions};
-use crate::lock::locked;
 use crate::stop_action::StopAction;
 use ev3_motion::Pose;
+use ev3_os::locked;
 use std::cell::Cell;
 use std::sync::atomic::{AtomicI32, AtomicU8, Ordering};
 use std::sync::{Arc, Mutex};

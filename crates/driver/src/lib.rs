@@ -58,7 +58,6 @@ pub mod drive;
 pub mod error;
 mod files;
 pub mod journal;
-pub mod lock;
 pub mod motor;
 pub mod port_name;
 pub mod sensor;

@@ -7,7 +7,7 @@
 //! degrees, 0 along +y and clockwise positive. The same input gives the same bits
 //! on every machine.
 //!
-//! A [`Segment`] is a line or an arc, a [`Path`] is made of segments. Corners
+//! A [`Svg`] is a picture of the plane. A [`Segment`] is a line or an arc, a [`Path`] is made of segments. Corners
 //! become arcs:
 //!
 //! ```
@@ -31,9 +31,16 @@
 #![forbid(unsafe_code)]
 
 mod path;
+mod plane;
 mod pose;
 mod segment;
+mod svg;
 
 pub use path::Path;
-pub use pose::{Point, Pose, direction, distance, sinc, wrapped};
+pub use plane::{
+    Bounds, FARTHEST, Frame, OUT_OF_RANGE, Point, Vec2, direction, distance, frame, heading_vector,
+    is_in_range, length, outside, point, sin_cos, vec2,
+};
+pub use pose::{Pose, sinc, wrapped};
 pub use segment::{Place, Segment, rounded};
+pub use svg::{Svg, points};

@@ -1,5 +1,6 @@
 //! Paths of straight lines and arcs.
-use crate::pose::{Point, Pose, direction, distance};
+use crate::plane::{Point, direction, distance};
+use crate::pose::Pose;
 use crate::segment::Segment;
 
 /// How far ahead on a path to aim at, in cm.

@@ -1,7 +1,5 @@
 //! Positions and headings.
-
-/// X and y, in cm.
-pub type Point = [f64; 2];
+use crate::plane::{Frame, Point, Vec2, frame, is_in_range, outside, sin_cos};
 
 /// A position in cm and a heading in degrees: 0 looks along y, clockwise is
 /// positive, and full turns count.
@@ -16,6 +14,32 @@ pub struct Pose {
 }
 
 impl Pose {
+    /// A pose from its three numbers.
+    #[must_use]
+    pub const fn new(x: f64, y: f64, heading: f64) -> Self {
+        Self { x, y, heading }
+    }
+
+    /// False if a number is too large or none.
+    #[must_use]
+    pub fn is_in_range(&self) -> bool {
+        [self.x, self.y, self.heading].into_iter().all(is_in_range)
+    }
+
+    /// The frame whose x is to the right of this pose and whose y lies ahead of it.
+    #[must_use]
+    pub fn frame(&self) -> Frame {
+        let (sin, cos) = sin_cos(self.heading);
+        frame(self.vec2(), cos, -sin)
+    }
+
+    /// A pose given in this one's frame, in the world's.
+    #[must_use]
+    pub fn compose(&self, inner: &Self) -> Self {
+        let point = outside(&self.frame(), inner.vec2());
+        Self::new(point.x, point.y, self.heading + inner.heading)
+    }
+
     /// The pose `ahead` cm further on.
     #[must_use]
     pub fn ahead(self, ahead: f64) -> Self {
@@ -49,18 +73,12 @@ impl Pose {
     pub fn point(self) -> Point {
         [self.x, self.y]
     }
-}
 
-/// The compass direction from one place to another, in degrees.
-#[must_use]
-pub fn direction([x0, y0]: Point, [x1, y1]: Point) -> f64 {
-    libm::atan2(x1 - x0, y1 - y0).to_degrees()
-}
-
-/// How far one place is from another, in cm.
-#[must_use]
-pub fn distance([x0, y0]: Point, [x1, y1]: Point) -> f64 {
-    libm::hypot(x1 - x0, y1 - y0)
+    /// Where it is, as a vector.
+    #[must_use]
+    pub fn vec2(self) -> Vec2 {
+        Vec2::new(self.x, self.y)
+    }
 }
 
 /// An angle between -180 and 180 degrees, the latter included.
@@ -97,6 +115,16 @@ const SERIES: [f64; 5] = [1.0 / 362_880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn heading_is_clockwise_from_up() {
+        let robot = Pose::new(10.0, 20.0, 90.0);
+        let nose = robot.compose(&Pose::new(0.0, 5.0, 0.0));
+        assert!((nose.x - 15.0).abs() < 1e-9 && (nose.y - 20.0).abs() < 1e-9, "{nose:?}");
+        let right = robot.compose(&Pose::new(5.0, 0.0, 45.0));
+        assert!((right.x - 10.0).abs() < 1e-9 && (right.y - 15.0).abs() < 1e-9, "{right:?}");
+        assert!((right.heading - 135.0).abs() < 1e-9);
+    }
 
     #[test]
     fn a_move_is_the_same_from_another_pose() {

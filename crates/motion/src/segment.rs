@@ -2,7 +2,8 @@
 //!
 //! A segment is seen in the direction of travel: a robot that backs along it has
 //! its own heading turned by half a turn.
-use crate::pose::{Point, Pose, direction, distance, wrapped};
+use crate::plane::{Point, direction, distance};
+use crate::pose::{Pose, wrapped};
 
 /// Rounder than this, in 1/cm, a segment is a line.
 const STRAIGHT: f64 = 1e-6;

@@ -25,6 +25,12 @@ pub use std::thread::sleep;
 pub use std::time::Instant;
 
 use std::error::Error;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// Locks a mutex. A thread that panicked while it held the lock has left the value in order.
+pub fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// What the kernel says of an error, without the number that Rust adds.
 #[must_use]

@@ -1,5 +1,5 @@
 //! One step of a drive through a room that is not wholly known.
-use crate::geometry::{Point, direction, point, vec2};
+use crate::geometry::{Point, heading_vector, point, vec2};
 use crate::map::Map;
 use crate::plan::{NoWay, plan};
 use crate::problem::Options;
@@ -85,7 +85,7 @@ impl Views {
         }
         let headings = (0..DIRECTIONS).map(|n| 360.0 * f64::from(n) / f64::from(DIRECTIONS));
         let places = BACK.into_iter().flat_map(|far| {
-            headings.clone().map(move |heading| point(vec2(start) + direction(heading) * far))
+            headings.clone().map(move |heading| point(vec2(start) + heading_vector(heading) * far))
         });
         let mut steps = places.filter_map(|place| {
             let run = Path::straight(&[start, place]);
@@ -137,7 +137,7 @@ mod tests {
         assert!(first.safe < 1.0 && first.unseen.is_some());
         for turn in -60..=60 {
             let heading = f64::from(turn) * 1.5;
-            let ahead = direction(heading) * 7.0;
+            let ahead = heading_vector(heading) * 7.0;
             views.add(View { at: [ahead.x, ahead.y], heading, range: 255.0 });
         }
         let safe = step(&mut views).safe;

@@ -1,34 +1,11 @@
 //! Points, vectors and angles.
-use parry2d_f64::math::{Point as ParryPoint, Vector};
-
-pub(crate) use ev3_motion::{Point, distance};
-
-/// The largest coordinate, in cm: 10 km, as in the simulator.
-pub const FARTHEST: f64 = 1e6;
-
-/// False for what is too large, and what is no number.
-#[must_use]
-pub fn is_in_range(number: f64) -> bool {
-    number.abs() <= FARTHEST
-}
-
-/// A vector, or a point as the vector to it.
-pub(crate) type Vec2 = Vector<f64>;
-
-pub(crate) fn vec2([x, y]: Point) -> Vec2 {
-    Vec2::new(x, y)
-}
-
-pub(crate) fn point(vector: Vec2) -> Point {
-    [vector.x, vector.y]
-}
+pub(crate) use ev3_motion::{
+    Point, Vec2, distance, heading_vector, is_in_range, length, point, vec2,
+};
+use parry2d_f64::math::Point as ParryPoint;
 
 pub(crate) fn parry([x, y]: Point) -> ParryPoint<f64> {
     ParryPoint::new(x, y)
-}
-
-pub(crate) fn length(vector: Vec2) -> f64 {
-    libm::hypot(vector.x, vector.y)
 }
 
 /// A vector of length 1, or zero for one without a length.
@@ -56,12 +33,6 @@ pub(crate) fn angle(a: Vec2, b: Vec2) -> f64 {
 pub(crate) fn rotated(vector: Vec2, radians: f64) -> Vec2 {
     let (sin, cos) = libm::sincos(radians);
     Vec2::new(vector.x * cos - vector.y * sin, vector.x * sin + vector.y * cos)
-}
-
-/// The direction in which a heading points.
-pub(crate) fn direction(heading: f64) -> Vec2 {
-    let (sin, cos) = libm::sincos(heading.to_radians());
-    Vec2::new(sin, cos)
 }
 
 /// The smallest box around points, as its lower left and upper right corner.

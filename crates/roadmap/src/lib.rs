@@ -48,10 +48,9 @@ mod svg;
 mod views;
 mod visibility;
 
-pub use ev3_motion::{Path, Point, Segment};
+pub use ev3_motion::{Bounds, Path, Point, Segment};
 pub use explore::Step;
-pub use geometry::{FARTHEST, is_in_range};
-pub use map::{Bounds, Fault, Map, Obstacle};
+pub use map::{Fault, Map, Obstacle};
 pub use plan::{NoWay, Solution, plan};
 pub use problem::{Method, Options};
 pub use svg::svg;

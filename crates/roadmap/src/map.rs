@@ -1,9 +1,10 @@
 //! Obstacles, and how far a way is from them.
 use crate::arc::Arc;
 use crate::geometry::{
-    Point, apart, around, cross, direction, distance, is_in_range, left_of, parry, point, unit,
-    vec2,
+    Point, apart, around, cross, distance, heading_vector, is_in_range, left_of, parry, point,
+    unit, vec2,
 };
+use ev3_motion::Bounds;
 use parry2d_f64::math::{Isometry, Point as ParryPoint};
 use parry2d_f64::query::PointQuery;
 use parry2d_f64::query::details::distance_segment_segment;
@@ -24,15 +25,6 @@ pub(crate) enum Shape {
     },
 }
 
-/// A rectangle that the robot does not leave.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
-    /// Lower left corner.
-    pub low: Point,
-    /// Upper right corner.
-    pub high: Point,
-}
-
 /// An impossible part of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -40,7 +32,7 @@ pub enum Fault {
     /// A polygon of a point or a line.
     #[error("needs at least three corners")]
     TooFewCorners,
-    /// A number beyond [`FARTHEST`](crate::FARTHEST), or none.
+    /// A number beyond [`FARTHEST`](ev3_motion::FARTHEST), or none.
     #[error("has a number beyond 1000000")]
     OutOfRange,
     /// Two edges meet that are not neighbors, or neighbors that lie on one another.
@@ -85,8 +77,8 @@ impl Obstacle {
     ) -> Result<Obstacle, Fault> {
         in_range(&[middle[0], middle[1], heading])?;
         positive(&[width, depth])?;
-        let ahead = direction(heading) * (depth / 2.0);
-        let aside = -left_of(direction(heading)) * (width / 2.0);
+        let ahead = heading_vector(heading) * (depth / 2.0);
+        let aside = -left_of(heading_vector(heading)) * (width / 2.0);
         let corners = [-aside - ahead, aside - ahead, aside + ahead, ahead - aside];
         Self::polygon(corners.map(|corner| point(vec2(middle) + corner)).to_vec())
     }
@@ -168,9 +160,10 @@ impl Map {
     /// If the bounds have no inside.
     pub fn new(obstacles: Vec<Obstacle>, bounds: Option<Bounds>) -> Result<Map, Fault> {
         let mut map = Map { bounds, ..Map::default() };
-        if let Some(Bounds { low, high }) = bounds {
+        if let Some(bounds) = bounds {
+            let Bounds { low, high } = bounds;
             in_range(low.iter().chain(&high))?;
-            if low[0] >= high[0] || low[1] >= high[1] {
+            if !bounds.has_inside() {
                 return Err(Fault::NoInside);
             }
             let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
@@ -225,9 +218,7 @@ impl Map {
 
     /// True inside of an obstacle or outside of the bounds.
     fn covers(&self, at: Point) -> bool {
-        let outside = self.bounds.is_some_and(|Bounds { low, high }| {
-            at[0] < low[0] || at[1] < low[1] || at[0] > high[0] || at[1] > high[1]
-        });
+        let outside = self.bounds.is_some_and(|bounds| !bounds.contain(at));
         let is_around = |area: &Area| {
             !apart(&area.extent, &[at, at], 0.0) && point_in_poly2d(&parry(at), &area.corners)
         };
@@ -285,7 +276,7 @@ impl Map {
         let of_circles = self.circles().flat_map(|([x, y], r)| [[x - r, y - r], [x + r, y + r]]);
         let of_edges = self.edges.iter().flat_map(|edge| edge.extent);
         let [low, high] = around(of_edges.chain(of_circles).chain(points));
-        Bounds { low: low.map(|n| n - room), high: high.map(|n| n + room) }
+        Bounds { low, high }.with_room(room)
     }
 }
 

@@ -1,6 +1,7 @@
 //! A planning problem: its options, the task of the search, and its random points.
 use crate::geometry::{Point, distance};
-use crate::map::{Bounds, Map};
+use crate::map::Map;
+use ev3_motion::Bounds;
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::Rng;
 

@@ -7,7 +7,7 @@
 //! directions narrow the second: they show parts of the arc to be free, and the thing
 //! is on the rest of the arc.
 use crate::geometry::{
-    Point, Vec2, cross, direction, distance, left_of, length, parry, point, rotated, vec2,
+    Point, Vec2, cross, distance, heading_vector, left_of, length, parry, point, rotated, vec2,
 };
 use crate::map::{Map, Obstacle};
 use ev3_motion::Path;
@@ -191,7 +191,7 @@ impl Views {
     /// True if a thing stands where earlier looks showed a free place: it has moved, or
     /// was too thin for an echo. This forgets those looks.
     pub fn look(&mut self, at: Point, heading: f64, mount: View) -> bool {
-        let ahead = direction(heading);
+        let ahead = heading_vector(heading);
         let [aside, forward] = mount.at;
         let sensor = vec2(at) + ahead * forward - left_of(ahead) * aside;
         let view = View { at: point(sensor), heading: heading + mount.heading, range: mount.range };
@@ -203,7 +203,7 @@ impl Views {
 
     /// If looks showed free from where this one has its echo, forgets those.
     fn forget_contradicted(&mut self, view: View) -> bool {
-        let ahead = direction(view.heading);
+        let ahead = heading_vector(view.heading);
         let cos = self.free_cos;
         let beyond = Look { at: view.at, ahead, range: view.range + MOVED, free: 0.0 };
         let places = beyond.across();
@@ -225,7 +225,7 @@ impl Views {
     /// Notes a look. One from where the last one was, to where it looked, is
     /// left out.
     pub fn add(&mut self, view: View) {
-        let ahead = direction(view.heading);
+        let ahead = heading_vector(view.heading);
         let is_new = |Seen { look: last, .. }: &Seen| {
             distance(last.at, view.at) > STEP
                 || last.ahead.dot(&ahead) < 0.9986
@@ -274,7 +274,7 @@ impl Views {
         for (way, pose) in path.samples(STEP) {
             if way > 0.0 {
                 let front = FRONT.map(|degrees| {
-                    let out = rotated(direction(pose.heading), degrees.to_radians());
+                    let out = rotated(heading_vector(pose.heading), degrees.to_radians());
                     point(vec2(pose.point()) + out * (self.hull + margin))
                 });
                 safe.unseen = front.into_iter().find(|place| !self.is_free(*place));

@@ -4,8 +4,8 @@ use crate::brick::port::Port;
 use crate::noise::{Echo, Noise};
 use crate::robot::{Chassis, MotorMount, RobotSpec, SensorMount, Wheel};
 use crate::world::color::Color;
-use crate::world::geometry::Pose;
-use crate::world::{Bounds, Drawn, Hull, Item, Part, SpecError, WorldSpec};
+use crate::world::{Drawn, Hull, Item, Part, SpecError, WorldSpec};
+use ev3_motion::{Bounds, Pose};
 
 /// The subject of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

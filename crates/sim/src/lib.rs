@@ -100,7 +100,6 @@ pub mod far;
 mod files;
 #[cfg(feature = "fuse")]
 mod fuse;
-mod lock;
 mod log;
 mod machine;
 mod mechanics;
@@ -121,6 +120,7 @@ pub use brick::port::{Port, UnknownPort};
 pub use brick::remote::RemoteButton;
 pub use brick::screen::Depth;
 pub use clock::{Act, Clock, Simulation, is_outside, stay_outside};
+pub use ev3_motion::{Bounds, Point, Pose};
 pub use ev3_os::linux::Errno;
 pub use files::attr::Access;
 #[cfg(feature = "fuse")]
@@ -140,7 +140,6 @@ pub use sensor::{Link, SensorKind};
 pub use shared::Shared;
 pub use trace::{Action, Collision, Event, Trace};
 pub use world::color::{Color, UnknownColor};
-pub use world::geometry::Pose;
 pub use world::{
-    Bounds, Cell, Drawing, Drawn, Hull, Item, ItemId, Part, Point, SpecError, WorldSpec,
+    Cell, Drawing, Drawn, Hull, Item, ItemId, Part, SpecError, WorldSpec, check_bounds,
 };

@@ -1,8 +1,6 @@
 //! How the clock sees that all threads rest. It looks at all threads of the process: this is one
 //! of its own, with one test.
 
-#[path = "../src/lock.rs"]
-mod lock;
 #[path = "../src/clock/threads.rs"]
 mod threads;
 

@@ -9,9 +9,9 @@
 //! reader that waits gets those that are appended.
 use crate::devfs::{Devfs, SLICE, Stream, open_first, pause_for};
 use crate::error::{Access, Error, Result};
-use crate::lock::locked;
 use crate::wait::{AnyWait, Look, Slices, Wait};
 use ev3_os::Errno;
+use ev3_os::locked;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};

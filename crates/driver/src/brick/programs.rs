@@ -1,8 +1,8 @@
 //! Other programs: those that speak and play.
 use crate::devfs::{Devfs, Finds, UntilFound};
 use crate::error::{Error, Result};
-use crate::lock::locked;
 use crate::wait::Slices;
+use ev3_os::locked;
 use std::ffi::OsStr;
 use std::io::{self, Read};
 use std::process::{Child, Command, ExitStatus, Stdio};

@@ -1,5 +1,5 @@
 //! The gears between motors and what they drive.
-use crate::lock::locked;
+use ev3_os::locked;
 use std::sync::Mutex;
 
 /// How many times a motor turns while what it drives turns once, by the motor's port: the

@@ -5,10 +5,10 @@ use crate::drive::devices::DriveDevices;
 use crate::drive::steering::Steering;
 use crate::error::Result;
 use crate::journal::{Course, Origin};
-use crate::lock::locked;
 use crate::motor::claim::Claim;
 use crate::motor::wait::{Reason, has};
 use crate::motor::{Ramps, StopAction};
+use ev3_os::locked;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 

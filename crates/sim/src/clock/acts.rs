@@ -1,6 +1,6 @@
 //! What happens periodically in simulated time.
 
-use crate::lock::locked;
+use ev3_os::locked;
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard};

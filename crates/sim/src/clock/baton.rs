@@ -10,8 +10,8 @@
 //! before time goes on, however slow this machine is. That is why a program with several threads
 //! does the same in each run.
 
-use crate::lock::locked;
 use ev3_os::Instant;
+use ev3_os::locked;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard};
 use std::thread::{self, Thread};

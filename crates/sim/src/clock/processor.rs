@@ -4,8 +4,8 @@
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use crate::lock::locked;
 use crate::shared::Crowd;
+use ev3_os::locked;
 
 /// How far it may be behind with its accesses before the next call waits for it: a tick of the
 /// kernel's motor loop.

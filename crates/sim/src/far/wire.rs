@@ -16,8 +16,8 @@ use std::sync::Mutex;
 use std::time::Duration;
 
 use super::{Answer, Far, Host, Kind, Question, nanos};
-use crate::lock::locked;
 use crate::machine::Machine;
+use ev3_os::locked;
 use ev3_os::mailbox::{Mailbox, Side, readable};
 
 const HELLO: &[u8; 8] = b"ev3far1\n";

@@ -14,11 +14,11 @@ use fuser::{
 use super::open::{Open, fuse_errno, written};
 use super::served::Served;
 use crate::files::attr::Access;
-use crate::lock::locked;
 use crate::machine::tree::{FileKind, NodeId, Stat};
 use crate::machine::{Machine, Written};
 use crate::shared::Shared;
 use ev3_os::linux::Errno;
+use ev3_os::locked;
 
 /// Nothing may be remembered by the kernel: devices come and go.
 const NO_CACHE: Duration = Duration::ZERO;

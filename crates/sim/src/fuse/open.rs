@@ -12,10 +12,10 @@ use std::time::{Duration, Instant};
 use fuser::{Notifier, PollHandle, ReplyData, ReplyWrite};
 
 use super::served::Served;
-use crate::lock::locked;
 use crate::machine::Machine;
 use crate::shared::Shared;
 use ev3_os::linux::Errno;
+use ev3_os::locked;
 
 /// [`watch`] samples this often, in wall time, even if nothing wakes it.
 const LOOK: Duration = Duration::from_millis(100);

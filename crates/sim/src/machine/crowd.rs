@@ -147,7 +147,7 @@ fn groups(machines: &[&mut Machine]) -> Vec<usize> {
             if x(second) - x(first) > reach(first) + widest {
                 break;
             }
-            let way = machines[second].body.pose.point() - machines[first].body.pose.point();
+            let way = machines[second].body.pose.vec2() - machines[first].body.pose.vec2();
             let near = reach(first) + reach(second);
             if way.dot(&way) <= near * near {
                 let (low, high) =

@@ -1,8 +1,8 @@
 //! The world as a file of facts.
 
 use crate::machine::Machine;
-use crate::world::geometry::Pose;
-use crate::world::{Bounds, Item, Point};
+use crate::world::Item;
+use ev3_motion::{Bounds, Point, Pose};
 
 impl Machine {
     /// The world as a file of facts. It starts where the robot is now.

@@ -1,5 +1,6 @@
 //! The accesses of a program to the tree: look up, open, read, write, poll.
 
+use ev3_motion::Pose;
 use std::time::Duration;
 
 use crate::brick::port::Port;
@@ -13,7 +14,6 @@ use crate::sense::View;
 use crate::sensor::{Link, Mode, Reading, SUPPLY_MV, Sensor};
 use crate::ticks::JIFFY_TICKS;
 use crate::trace::Action;
-use crate::world::geometry::Pose;
 use ev3_os::linux::Errno;
 
 /// The place of a sensor at a port without a place in the robot's facts.

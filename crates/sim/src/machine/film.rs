@@ -4,11 +4,11 @@
 //!
 //! A virtual clock jumps, so somebody who only looked now and then would miss what lies between.
 
+use ev3_motion::Pose;
 use std::time::Duration;
 
 use crate::brick::port::Port;
 use crate::log::Log;
-use crate::world::geometry::Pose;
 
 /// How many samples are kept.
 const MOST: usize = 2048;

@@ -18,6 +18,7 @@ mod svg;
 mod time;
 pub(crate) mod tree;
 
+use ev3_motion::{OUT_OF_RANGE, Pose};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -37,7 +38,6 @@ use crate::robot::{RobotSpec, Wheels};
 use crate::sensor::Sensor;
 use crate::ticks::TICK_US;
 use crate::trace::{Collision, Trace};
-use crate::world::geometry::{OUT_OF_RANGE, Pose};
 use crate::world::obstacle::Obstacle;
 use crate::world::scene::{Others, Scene};
 use crate::world::{Item, ItemId, Part, SpecError, WorldSpec};

@@ -12,8 +12,8 @@ use crate::motor::{COUNT_PER_M, Tacho};
 use crate::sense::sight::Sight;
 use crate::sensor::Sensor;
 use crate::world::color::Color;
-use crate::world::geometry::Pose;
-use crate::world::{Bounds, Item, ItemId};
+use crate::world::{Item, ItemId};
+use ev3_motion::{Bounds, Pose};
 
 /// The device at a port.
 #[derive(Clone, Debug, PartialEq)]

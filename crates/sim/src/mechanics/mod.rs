@@ -20,9 +20,9 @@ pub(crate) mod shaft;
 use crate::ItemId;
 use crate::robot::{RobotSpec, Wheel};
 use crate::ticks::TICK_SECONDS;
-use crate::world::geometry::{Pose, Vec2, direction, sin_cos};
 use crate::world::obstacle::Contact;
 use crate::world::scene::Scene;
+use ev3_motion::{Pose, Vec2, heading_vector, sin_cos};
 
 /// The hull keeps this far from obstacles, in cm, so that it never quite touches them.
 const SKIN: f64 = 0.02;
@@ -475,9 +475,9 @@ impl Body {
 
     /// How fast a point of the hull moves into a direction.
     fn gain(&self, point: Vec2, into: Vec2) -> Speeds {
-        let ahead = direction(self.pose.heading);
+        let ahead = heading_vector(self.pose.heading);
         let right = Vec2::new(ahead.y, -ahead.x);
-        let arm = point - self.pose.point();
+        let arm = point - self.pose.vec2();
         let turns = Vec2::new(arm.y, -arm.x).dot(&into);
         if self.spins.is_some() {
             return [0.0, 0.0, right.dot(&into), ahead.dot(&into), turns];

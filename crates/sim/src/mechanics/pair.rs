@@ -12,9 +12,9 @@ use super::{
 use crate::ItemId;
 use crate::mechanics::Limit;
 use crate::robot::RobotSpec;
-use crate::world::geometry::{Pose, Vec2};
 use crate::world::obstacle::{Contact, Obstacle};
 use crate::world::scene::Scene;
+use ev3_motion::{Pose, Vec2};
 
 /// How often robots that are too near are pushed from each other.
 const PUSHES: usize = 8;

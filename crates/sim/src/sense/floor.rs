@@ -2,7 +2,7 @@
 
 use super::{View, whole};
 use crate::sensor::{Parts, Reading};
-use crate::world::geometry::Pose;
+use ev3_motion::Pose;
 
 /// Below these a color is black, or without color, or pale; each from 0 to 1.
 const DARK: f64 = 0.2;
@@ -71,7 +71,7 @@ impl View<'_> {
     fn row_percent(&mut self) -> [f64; 8] {
         let mut place = -3.5 * ROW_STEP;
         std::array::from_fn(|_| {
-            let below = self.pose.compose(&Pose::new(place, 0.0, 0.0)).point();
+            let below = self.pose.compose(&Pose::new(place, 0.0, 0.0)).vec2();
             place += ROW_STEP;
             let color = self.scene.color_at(below);
             let sum = [color.red, color.green, color.blue].map(f64::from).iter().sum::<f64>();

@@ -3,7 +3,7 @@
 use super::{View, whole};
 use crate::brick::remote::{CHANNELS, Remote};
 use crate::sensor::Reading;
-use crate::world::geometry::length;
+use ev3_motion::length;
 
 /// A beacon is seen from this far, in cm: there an EV3 sensor says 100 %.
 pub(super) const BEACON_FAR: f64 = 200.0;
@@ -29,7 +29,7 @@ struct Seen {
 impl View<'_> {
     /// The nearest beacon in sight, on one channel or on any.
     fn beacon(&self, channel: Option<u8>) -> Option<Seen> {
-        let here = self.pose.point();
+        let here = self.pose.vec2();
         let mut nearest: Option<Seen> = None;
         for (at, on) in self.scene.beacons() {
             let way = at - here;

@@ -6,8 +6,8 @@ pub(crate) mod sight;
 
 use crate::noise::{Heard, Source};
 use crate::sensor::{Axle, Reading, SUPPLY_MV, SWITCHED_MV, Sense};
-use crate::world::geometry::{Pose, Vec2, direction, length};
 use crate::world::scene::{Others, Scene};
+use ev3_motion::{Pose, Vec2, heading_vector, length};
 
 /// The number of rays of the ultrasonic cone.
 const SONAR_RAYS: u32 = 13;
@@ -183,7 +183,7 @@ impl View<'_> {
         let ring = [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
         let diagonal = [(0.7, 0.7), (0.7, -0.7), (-0.7, 0.7), (-0.7, -0.7)];
         for (x, y) in ring.into_iter().chain(diagonal) {
-            let color = self.scene.color_at(self.pose.point() + Vec2::new(x, y) * SPOT);
+            let color = self.scene.color_at(self.pose.vec2() + Vec2::new(x, y) * SPOT);
             sum[0] += f64::from(color.red);
             sum[1] += f64::from(color.green);
             sum[2] += f64::from(color.blue);
@@ -210,8 +210,8 @@ impl View<'_> {
     /// Light from all around, and from each lamp that is not in a shadow: it falls with the
     /// square of the distance and with the cosine of the angle at which it comes in.
     fn light(&self) -> f64 {
-        let here = self.pose.point();
-        let ahead = direction(self.pose.heading);
+        let here = self.pose.vec2();
+        let ahead = heading_vector(self.pose.heading);
         let full = LAMP_DISTANCE * LAMP_DISTANCE + LAMP_HEIGHT * LAMP_HEIGHT;
         let mut light = self.scene.ambient;
         for (lamp, intensity) in self.scene.lamps(self.power) {
@@ -248,7 +248,7 @@ impl View<'_> {
     /// The nearest surface in the sonar's cone that a ray meets with at least this cosine of its
     /// incidence.
     fn facing(&self, half_angle: f64, least: f64) -> Option<f64> {
-        let here = self.pose.point();
+        let here = self.pose.vec2();
         let hits = fan(self.pose.heading, half_angle, SONAR_RAYS).filter_map(|ray| {
             let (distance, normal) = self.scene.surface(self.others, here, ray, SONAR_FAR)?;
             (-normal.dot(&ray) >= least).then_some(distance)
@@ -258,7 +258,7 @@ impl View<'_> {
 
     /// The nearest thing in a cone, if there is one.
     fn cone(&self, half_angle: f64, rays: u32, far: f64) -> Option<f64> {
-        let here = self.pose.point();
+        let here = self.pose.vec2();
         let mut directions = [Vec2::zeros(); SONAR_RAYS as usize];
         let directions = &mut directions[..rays as usize];
         for (towards, ray) in directions.iter_mut().zip(fan(self.pose.heading, half_angle, rays)) {
@@ -293,7 +293,7 @@ impl View<'_> {
     }
 
     fn pressed(&self) -> bool {
-        let end = |x: f64| self.pose.compose(&Pose::new(x, 0.0, 0.0)).point();
+        let end = |x: f64| self.pose.compose(&Pose::new(x, 0.0, 0.0)).vec2();
         self.is_held
             || self.scene.near_bumper(
                 self.others,
@@ -307,7 +307,7 @@ impl View<'_> {
 /// The directions of rays, from left to right.
 fn fan(heading: f64, half_angle: f64, rays: u32) -> impl Iterator<Item = Vec2> {
     let step = 2.0 * half_angle / f64::from(rays - 1);
-    (0..rays).map(move |ray| direction(heading - half_angle + step * f64::from(ray)))
+    (0..rays).map(move |ray| heading_vector(heading - half_angle + step * f64::from(ray)))
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "saturates; sensors' numbers are small")]

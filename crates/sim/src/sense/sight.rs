@@ -6,9 +6,8 @@ use super::{
     SONAR_RAYS, TIME_OF_FLIGHT_FAR, View,
 };
 use crate::sensor::Sense;
-use crate::world::Point;
 use crate::world::color::Color;
-use crate::world::geometry::{Pose, Vec2, length};
+use ev3_motion::{Point, Pose, Vec2, length};
 
 /// The part of the world that a sensor sees in a mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,9 +56,9 @@ impl View<'_> {
             | Sense::Part(_)
             | Sense::Parts(_)
             | Sense::Row { .. }
-            | Sense::LineSteering => Sight::Spot(self.scene.color_at(self.pose.point())),
+            | Sense::LineSteering => Sight::Spot(self.scene.color_at(self.pose.vec2())),
             Sense::Touch | Sense::Volts => {
-                let end = |x| point(self.pose.compose(&Pose::new(x, 0.0, 0.0)).point());
+                let end = |x| point(self.pose.compose(&Pose::new(x, 0.0, 0.0)).vec2());
                 let (from, to) = (end(-BUMPER_HALF), end(BUMPER_HALF));
                 Sight::Bumper { from, to, is_on: self.pressed() }
             }
@@ -71,7 +70,7 @@ impl View<'_> {
     }
 
     fn fan(&self, half_angle: f64, rays: u32, far: f64) -> Sight {
-        let here = self.pose.point();
+        let here = self.pose.vec2();
         let mut nearest: Option<(f64, Point)> = None;
         let mut end = |way: Vec2| {
             let hit = self.scene.cast(self.others, here, way, far);
@@ -86,7 +85,7 @@ impl View<'_> {
     }
 
     fn nearest_beacon(&self) -> Option<(Vec2, u8)> {
-        let here = self.pose.point();
+        let here = self.pose.vec2();
         let away = |(at, _): &(Vec2, u8)| length(*at - here);
         let seen = self.scene.beacons().filter(|beacon| {
             away(beacon) <= BEACON_FAR && self.scene.clear_between(self.others, here, beacon.0)

@@ -1,13 +1,10 @@
 //! What stands and lies in a world, as plain data.
 
+use ev3_motion::{OUT_OF_RANGE, Point, Pose, is_in_range};
 use std::fmt;
 
 use crate::brick::port::Port;
 use crate::world::color::Color;
-use crate::world::geometry::{OUT_OF_RANGE, Pose, is_in_range};
-
-/// A point in cm.
-pub type Point = [f64; 2];
 
 /// Names an item of a world. Bounds are item 0, the items of the world's spec follow in order,
 /// and what is added later gets the next number; numbers are not used again.
@@ -215,7 +212,7 @@ fn first_fault<const N: usize>(checks: [(bool, &'static str); N]) -> Option<&'st
     checks.into_iter().find(|(fine, _)| !fine).map(|(_, reason)| reason)
 }
 
-pub(crate) fn in_range(points: &[Point]) -> bool {
+fn in_range(points: &[Point]) -> bool {
     points.iter().flatten().copied().all(is_in_range)
 }
 

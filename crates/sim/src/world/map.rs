@@ -9,8 +9,8 @@
 //! ```
 
 use crate::world::color::Color;
-use crate::world::geometry::{Pose, is_in_range};
-use crate::world::{Item, Part, Point, SpecError, WorldSpec};
+use crate::world::{Item, Part, SpecError, WorldSpec};
+use ev3_motion::{Point, Pose, is_in_range};
 
 const FLOORS: [(char, &str); 7] = [
     ('k', "black"),

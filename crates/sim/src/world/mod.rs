@@ -2,7 +2,6 @@
 //! robots, sound and light ([`scene`], [`obstacle`]).
 
 pub(crate) mod color;
-pub(crate) mod geometry;
 mod hull;
 mod item;
 mod map;
@@ -11,6 +10,6 @@ pub(crate) mod scene;
 mod spec;
 
 pub use hull::Hull;
-pub use item::{Item, ItemId, Part, Point, SpecError};
+pub use item::{Item, ItemId, Part, SpecError};
 pub use map::{Cell, Drawing, Drawn};
-pub use spec::{Bounds, WorldSpec};
+pub use spec::{WorldSpec, check_bounds};

@@ -1,12 +1,12 @@
 //! Things that stop robots, sound and light: boxes and circles, and where a hull touches them.
 
+use ev3_motion::{Bounds, Frame, Pose, Vec2, frame, length, outside};
 use parry2d_f64::math::Point;
 use parry2d_f64::query::{self, PointQuery, Ray, RayCast};
 use parry2d_f64::shape::{Ball, Cuboid, Segment, Shape};
 
 use crate::world::Hull;
-use crate::world::geometry::{Frame, Pose, Vec2, frame, length, outside};
-use crate::world::{Bounds, Item, ItemId};
+use crate::world::{Item, ItemId};
 
 /// How thick the walls of the bounds are.
 const BOUND_THICKNESS: f64 = 10.0;

@@ -1,5 +1,6 @@
 //! The world as the physics and the sensors need it: shapes to bump into, to see, to stand on.
 
+use ev3_motion::{Bounds, Frame, Pose, Vec2, length};
 use parry2d_f64::math::Point;
 use parry2d_f64::query::{PointQuery, Ray};
 use parry2d_f64::shape::Segment;
@@ -8,9 +9,8 @@ use parry2d_f64::utils::point_in_poly2d;
 use crate::brick::remote::{CHANNELS, Remote};
 use crate::world::Hull;
 use crate::world::color::Color;
-use crate::world::geometry::{Frame, Pose, Vec2, length};
 use crate::world::obstacle::{Contact, Obstacle};
-use crate::world::{Bounds, Item, ItemId, SpecError, WorldSpec};
+use crate::world::{Item, ItemId, SpecError, WorldSpec};
 
 const BOUNDS: ItemId = ItemId(0);
 

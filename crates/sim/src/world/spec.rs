@@ -1,39 +1,22 @@
 //! A whole world, as plain data.
 
 use crate::world::color::Color;
-use crate::world::geometry::{OUT_OF_RANGE, Pose};
-use crate::world::item::{Item, Part, Point, SpecError, in_range};
+use crate::world::item::{Item, Part, SpecError};
+use ev3_motion::{Bounds, OUT_OF_RANGE, Pose};
 
 /// Temperatures that there can be, in degrees Celsius.
 const ABSOLUTE_ZERO: f64 = -273.15;
 const HOTTEST: f64 = 1000.0;
 
-/// A rectangle with walls around it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
-    /// Lower left corner.
-    pub low: Point,
-    /// Upper right corner.
-    pub high: Point,
-}
-
-impl Bounds {
-    /// Checks the corners.
-    ///
-    /// # Errors
-    /// If the rectangle has no inside.
-    pub fn validate(&self) -> Result<(), SpecError> {
-        let Bounds { low, high } = *self;
-        if in_range(&[low, high]) && low[0] < high[0] && low[1] < high[1] {
-            return Ok(());
-        }
-        Err(SpecError::new("bounds", "must have an inside").in_part(Part::Bounds))
+/// Checks the corners of the walls around a world.
+///
+/// # Errors
+/// If they have no inside.
+pub fn check_bounds(bounds: &Bounds) -> Result<(), SpecError> {
+    if bounds.is_in_range() && bounds.has_inside() {
+        return Ok(());
     }
-
-    /// Whether a place is within.
-    pub(crate) fn contain(&self, place: Point) -> bool {
-        (0..2).all(|axis| (self.low[axis]..=self.high[axis]).contains(&place[axis]))
-    }
+    Err(SpecError::new("bounds", "must have an inside").in_part(Part::Bounds))
 }
 
 /// A world.
@@ -108,7 +91,7 @@ impl WorldSpec {
             return Err(SpecError::new("start", OUT_OF_RANGE).in_part(Part::Start));
         }
         if let Some(bounds) = self.bounds {
-            bounds.validate()?;
+            check_bounds(&bounds)?;
         }
         Ok(())
     }
