@@ -252,7 +252,7 @@ marking_option(Options, formats([Format])) :-
 marking_option(Options, redis(Address)) :-
     setting(redis, Options, Address).
 
-%   That of make playground, unless another one is named.
+%   The folder of `make playground`, unless another one is named.
 
 playground_folder(Folders, Folder) :-
     (   Folders = [Named|_]

@@ -67,7 +67,7 @@ natives! {
             let call = Call::of(context, "go_to", 4);
             let (course, drive) = (course_of(&call, course)?, robots_drive(&call, robot)?);
             call.may_move()?;
-            // The course tells more than the name of one of its predicates.
+            // The course says more than the name of one of its predicates.
             journal::forget_called();
             let (options, wait, timeout) = options_of(&call, options)?;
             let begun = drive.begin(&course, &options, &mut call.interrupted());

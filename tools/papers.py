@@ -22,7 +22,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PAPERS = ["ARCHITECTURE.md", "CONTRIBUTING.md", *sorted(
-    str(path.relative_to(ROOT)) for path in (ROOT / "docs/decisions").glob("*.md"))]
+    str(path.relative_to(ROOT)) for pattern in ("docs/decisions/*.md", "prolog/ev3dev/private/*/README.md")
+    for path in ROOT.glob(pattern))]
 CODE = re.compile(r"\.(?:pl|rs|js|mjs|py|sh|toml|c|h|css|html|txt)$|(?:^|/)Makefile$")
 PATH = re.compile(r"[\w.@*-]+(?:/[\w.@*-]+)*/?")
 # Not written by hand
@@ -159,6 +160,11 @@ def compared(files, papers):
     told = set(declared(files["prolog/ev3dev/private/native/native.pl"]))
     yield "natives! of src", "comments of private/native/native.pl", None, (told, rust)
     yield "comments of private/native/native.pl", "natives! of src", {each[1:] for each in told}, {each[1:] for each in rust}
+    rooms = {path.split("/")[3] for path in files if re.match(r"prolog/ev3dev/private/[^/]+/", path)}
+    yield "README.md of each room", "folders of private", {path.split("/")[3] for path in papers if re.fullmatch(
+        r"prolog/ev3dev/private/[^/]+/README\.md", path)}, rooms
+    yield "ARCHITECTURE.md", "folders of private", None, (
+        rooms, set(re.findall(r"`private/(\w+)/`", papers["ARCHITECTURE.md"])))
     state = files["src/view/state.rs"]
     objects = state[state.index("objects! {\n"):]
     fields = set(re.findall(r"^        (?:r#)?(\w+): .*,$", objects[:objects.index("\n}\n")], flags=re.M))

@@ -12,7 +12,7 @@
 
 /** <module> Colors
 
-The EV3's color sensor tells seven colors apart by itself, see col_color/2.
+The EV3's color sensor distinguishes seven colors by itself, see col_color/2.
 This library names them, and measures any color by a calibrated white. Loaded
 apart from library(ev3dev):
 
@@ -29,8 +29,8 @@ Hue = 121.
 
 %!  color_name(?Number, ?Name) is nondet.
 %
-%   True if Name is the color that col_color/2 tells by Number: 0 `none`,
-%   1 `black`, 2 `blue`, 3 `green`, 4 `yellow`, 5 `red`, 6 `white`, 7 `brown`.
+%   True if Name is the color that col_color/2 reports as Number: 0 `none`, 1
+%   `black`, 2 `blue`, 3 `green`, 4 `yellow`, 5 `red`, 6 `white`, 7 `brown`.
 
 color_name(Number, Name) :-
     color(Number, Name),
@@ -95,8 +95,8 @@ percent(Raw, White, Percent) :-
 %   True if the color sensor sees HSV, a term `hsv(Hue, Saturation, Value)` of
 %   integers: Hue in degrees from 0 to 359, where red is 0, green 120 and blue
 %   240; Saturation in percent, 0 for gray; Value, the brightness, in percent.
-%   The white is that of col_rgb/2. Hue tells colors apart in any light; it is
-%   of no use where Saturation or Value is low.
+%   The white is that of col_rgb/2. Hue distinguishes colors in any light; it
+%   is of no use where Saturation or Value is low.
 
 col_hsv(Port, hsv(Hue, Saturation, Value)) :-
     col_rgb(Port, rgb(R, G, B)),

@@ -63,7 +63,7 @@ the pose, and keeps the robot on its course; Prolog may do something else
 meanwhile. It does so for all moves, those of library(ev3dev/robot), too, and
 ends when the motors rest.
 
-The gyro, if one is connected, tells the heading, unless
+The gyro, if one is connected, gives the heading, unless
 `drive_option(use_gyro, false)`. Its drift is measured while the robot rests.
 A move puts it into the mode GYRO-ANG, unless it is in GYRO-G&A; while another
 mode is read, it does not count.
@@ -71,13 +71,13 @@ mode is read, it does not count.
 ## Options of moves {#drive-options}
 
   - speed(+Percent)
-    Of the faster wheel, for moves that are not told one. Default is that of
-    drive_option/2. Negative is backwards.
+    Of the faster wheel, for moves without a speed of their own. Default is
+    that of drive_option/2. Negative is backwards.
   - acceleration(+CmPerSquareSecond)
     How fast the robot gains and loses speed, from 1 to 1000. Default is that
     of drive_option/2.
   - use_gyro(+Boolean)
-    Whether the gyro tells the heading. Default is that of drive_option/2.
+    Whether the gyro gives the heading. Default is that of drive_option/2.
   - stop_action(+Action)
     What the motors do at the end: `hold` (default), `brake` or `coast`.
   - wait(+Boolean)
@@ -86,17 +86,16 @@ mode is read, it does not count.
   - timeout(+Seconds)
     Stop the robot if it takes longer.
   - reason(-Reason)
-    Do not fail if the move ends early, but tell why: one of `reached`,
+    Do not fail if the move ends early, but report why: one of `reached`,
     `stalled`, `timeout`, `stopped`, `unplugged` and `astray`.
 
 All moves fail if no robot is set, if a motor is not connected, and if the
-move is impossible: a speed of 0 or beyond 100 percent. Nothing moves then.
-A move by a distance or an angle of 0 is `reached` at once.
-They also fail, unless asked for the reason, when they end early: a wheel is
-blocked, the time is up, another thread stops a motor or tells it something
-else, or the gyro contradicts the wheels (`astray`): it is mounted upside
-down, left and right motor are swapped, or the wheels spin on the spot. The
-robot stands then.
+move is impossible: a speed of 0 or beyond 100 percent. Nothing moves then. A
+move by a distance or an angle of 0 is `reached` at once. They also fail,
+unless asked for the reason, when they end early: a wheel is blocked, the time
+is up, another thread stops a motor or commands something else, or the gyro
+contradicts the wheels (`astray`): it is mounted upside down, left and right
+motor are swapped, or the wheels spin on the spot. The robot stands then.
 
 They can be interrupted, as by Ctrl-C, and stop the robot first. A new move
 takes the place of one that is under way.
@@ -262,7 +261,7 @@ travel(Legs, Options) :-
     backwards(Percent, Backwards),
     move(Percent, legs(Legs, Backwards), Options).
 
-%   The speed of a move that is not told one.
+%   The speed of a move without a speed of its own.
 speed_option(Options, Percent) :-
     must_be(list, Options),
     drive_option(speed, Default),
@@ -316,7 +315,7 @@ follow(Places0, Options) :-
 %!  drive_wait(+Options, -Reason) is semidet.
 %
 %   Wait until the move under way ends, as one that was started with
-%   `wait(false)`, and tell why it did, as the option `reason(Reason)` does.
+%   `wait(false)`, and report why it did, as the option `reason(Reason)` does.
 %   Stops nothing. At once `reached` if there is none. Options:
 %
 %     - timeout(+Seconds)

@@ -252,7 +252,7 @@ event(Id, Kind) :-
 ev3dev_waits:serve_events :-
     ev3dev_events:serve.
 
-%   Which there are at the beginning: an action may add and cancel events.
+%   The events are those at the beginning: an action may add and cancel some.
 serve :-
     brick(Own),
     findall(Brick, other_brick(Own, Brick), Others0),
@@ -448,7 +448,7 @@ ignore_failure(Id, Name, Action) :-
 :- multifile prolog:message//1.
 
 prolog:message(ev3dev(event_failed(Id, Name))) -->
-    [ 'Event ~p (~w): its action failed'-[Id, Name] ].
+    [ 'The action of event ~p (~w) failed'-[Id, Name] ].
 
                  /*******************************
                  *            UNTIL             *
@@ -504,7 +504,7 @@ must_be_which(Which) :-
     (   ( var(Which) ; memberchk(Which, [condition, goal]) )
     ->  true
     ;   throw_error(domain_error(until_which, Which), _,
-                    'a condition of several goals stands in parentheses, \c
+                    'put parentheses around a condition of several goals, \c
                      as in until((Goal1, Goal2), Goal)')
     ).
 

@@ -116,7 +116,7 @@ seeds, the others are not run.
 What else the machine has to do changes no mark: only what the program itself
 does counts for its limits, and its random numbers follow the seed of the run.
 The text of the exercise goes into them, too, so a comment in the copy that
-marks is enough, and nobody can tell the seed by these numbers.
+marks is enough, and nobody can find the seed from these numbers.
 
 ## What a run was like {#exercise-runs}
 
@@ -305,8 +305,8 @@ cells_visited(Size0, Count) :-
 
 %!  lap_fraction(+Distance, -Share) is semidet.
 %
-%   Which Share of the first line of the world the robot has passed within
-%   Distance cm, from 0 to 1. Fails if the world has no line.
+%   Share, from 0 to 1, is how much of the first line of the world the robot
+%   has passed within Distance cm. Fails if the world has no line.
 
 lap_fraction(Distance0, Share) :-
     number_value(positive_number, Distance0, Distance),

@@ -169,7 +169,8 @@ simulate :-
 :- multifile prolog:message//1.
 
 prolog:message(ev3dev(simulated(World))) -->
-    [ 'This machine is no EV3: simulating one in the world `~w`. '-[World],
+    [ 'This computer is not an EV3: simulating one in the world `~w`. '-
+      [World],
       'See library(ev3dev/sim).'-[]
     ].
 

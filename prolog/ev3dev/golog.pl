@@ -97,8 +97,8 @@ robot_sense(look, D, us_dist_cm(_, D)).
 robot_exog(bump, touch(_, 1)).
 ```
 
-docs/cognitive-robotics.md explains all of it, and tells where the constructs
-come from.
+docs/cognitive-robotics.md explains all of it, and where the constructs come
+from.
 
 An import of this library declares the predicates of a domain dynamic and
 multifile in the importing module, and discontiguous those that it defines. So
@@ -141,10 +141,10 @@ order and in several files.
 %   Options:
 %
 %     - reason(-Reason)
-%       Do not fail, and do not throw an error of an action, but tell why the
-%       run ended: `final`, not_possible(Action, Condition) if only actions
-%       were left whose precondition does not hold, gave_up(Limit, Far) if
-%       a search gave up at its Limit and nothing else was left,
+%       Do not fail, and do not throw an error of an action, but report why
+%       the run ended: `final`, not_possible(Action, Condition) if only
+%       actions were left whose precondition does not hold, gave_up(Limit,
+%       Far) if a search gave up at its Limit and nothing else was left,
 %       no_step(Program) if nothing at all was, `stopped` by abort/0,
 %       `timeout`, `limit`, failed(Action), or exception(Error). Far says how
 %       far the search came: [steps(N), depth(D), inferences(I), seconds(S)];
@@ -644,7 +644,7 @@ sendRcxActionNumber(M:Number, Result) :-
 %!  checkOtherExog(-Actions) is det.
 %
 %   Numbers and Actions are []: what happens on the robot, and what
-%   golog_exog/1 tells, is in the history without them.
+%   golog_exog/1 reports, is in the history without them.
 
 receiveRcxActionNumber([]).
 

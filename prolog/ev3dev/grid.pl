@@ -65,7 +65,7 @@ move, unless it knows already that they are free.
 %       leads from Start to Goal, both `state(Cell, Direction)`. It asks
 %       obstructed/1.
 %     - reason(-Reason)
-%       Do not fail, nor print, but tell how it ended:
+%       Do not fail, nor print, but report how it ended:
 %
 %         - reached
 %         - no_way
@@ -80,9 +80,9 @@ move, unless it knows already that they are free.
 %         - stalled, timeout, stopped, unplugged, astray
 %           A move ended so, as with the moves of library(ev3dev/drive). Where
 %           the robot is stalled by what its sensor did not see, it takes that
-%           for an obstacle and goes back; only if it cannot this is told.
+%           for an obstacle and goes back; this is reported only if it cannot.
 %           Where it may be in the middle of the cell by then, as far as
-%           pose_uncertainty/1 tells, it has reached the cell.
+%           pose_uncertainty/1 says, it has reached the cell.
 %
 %     - tell(:Closure)
 %       call(Closure, Event) is called when something happens:
@@ -211,7 +211,7 @@ ended(Reason, Options, Goal) :-
 %   the robot is. Plans of the paper do, too: `move_if_free`, `turn_left`,
 %   `turn_right`, and `fin` at the end. Waits. Fails at the first that is not
 %   possible: there is an obstacle, which is noted, or the edge of the map, or
-%   any other reason of plan_and_go_to/3; state_position/2 tells how far the
+%   any other reason of plan_and_go_to/3; state_position/2 says how far the
 %   robot has come.
 %
 %   @error domain_error(grid_action, Action)

@@ -59,8 +59,8 @@ Probabilistic Robotics (2005), chapters 2 and 8.
 ev3dev_brick:forget(Brick) :-
     retractall(believed(Brick, _, _)).
 
-%   The most free cells ahead that are told apart. Farther on the cone of the
-%   sonar meets what stands beside the way.
+%   The most free cells ahead that are distinguished. Farther on the cone of
+%   the sonar meets what stands beside the way.
 farthest(2).
 
 %!  grid_belief(+Map, -Belief) is det.
@@ -390,9 +390,9 @@ side_open(Turn, Map, Pairs, Probability) :-
             Ps),
     sum_list(Ps, Probability).
 
-%   A second look at the same cells tells little, though the filter takes each
+%   A second look at the same cells adds little, though the filter takes each
 %   look for a new one: so it does not turn back, nor all around. It may go
-%   round in circles all the same, where only a longer way would tell.
+%   round in circles all the same, where only a longer way would help.
 entropy(Free, Done, Belief, Action) :-
     length(Done, Count),
     Count >= 15,

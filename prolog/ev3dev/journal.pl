@@ -85,7 +85,7 @@ why(What0) :-
     ;   print_message(help, ev3dev(why_nothing(What)))
     ).
 
-%   Which motors got the same stop as the Last one, in the same instant:
+%   The motors that got the same stop as the Last one, in the same instant:
 %   within 0.02 s, by the same predicate, for the same cause.
 
 stopped_with(What, done(Time, Of, Command, Cause, Called), Ports) :-

@@ -308,10 +308,10 @@ localize_step(Centimeters, Step) :-
 %       Default is 36. Where it turns more than 5 degrees between two
 %       measurements, one turn may not be enough.
 %     - turns(+Count)
-%       The most turns, where one does not tell. Default is 1.
+%       The most turns, if one is not enough. Default is 1.
 %     - reason(-Reason)
-%       Do not fail, but tell why: `reached`; `unsure`; or, as the move ended
-%       so, `stalled`, `stopped`, `astray` or `unplugged`.
+%       Do not fail, but report why: `reached`; `unsure`; or, as the move
+%       ended so, `stalled`, `stopped`, `astray` or `unplugged`.
 %
 %   @error domain_error(localize_scan_option, Option)
 
@@ -375,7 +375,7 @@ scanned(From, Turns, Localizer, Ended) :-
 %   The middle of the most probable cluster of poses, on the map, moved on by
 %   odometry since the last measurement. Heading is from -180 to 180.
 %   Covariance is as for pose_uncertainty/1. Fails as long as nothing is
-%   known; localized/1 tells how sure it is.
+%   known; localized/1 says how sure it is.
 
 localized_pose(X, Y, Heading, Covariance) :-
     localizer_now(Localizer, _),

@@ -196,8 +196,8 @@ map_svg(File) :-
 %     - speed(+CmPerSecond)
 %       Default is 15.
 %     - reason(-Reason)
-%       Do not fail, but tell why it ended: `explored`; `exhausted`, after so
-%       many places; or as for navigate_to/3.
+%       Do not fail, but report why it ended: `explored`; `exhausted`, after
+%       that many places; or as for navigate_to/3.
 %
 %   @error domain_error(explore_option, Option)
 

@@ -324,7 +324,7 @@ motor_wait(Ports, Options, Reason) :-
 
 prolog:message(ev3dev(stalled(Ports))) -->
     { atomic_list_concat(Ports, ', ', Text) },
-    [ 'Motor blocked, stopped: ~w'-[Text] ].
+    [ 'Motor blocked and stopped: ~w'-[Text] ].
 
 %!  motor_run_timed(+Port, +Speed, +Seconds) is semidet.
 %!  motor_run_timed(+Port, +Speed, +Seconds, +Options) is semidet.

@@ -55,22 +55,22 @@ them it plans the way again.
 %     - tolerance(+Cm)
 %       How near to Goal is there. Default is 2.
 %     - reason(-Reason)
-%       Do not fail if Goal is not reached, but tell why: `reached`;
+%       Do not fail if Goal is not reached, but report why: `reached`;
 %       `unreachable`, as there is no way with what is known and seen;
 %       `exhausted`, if it has planned its way so often as steps(Count) says;
 %       `stalled`, if something holds the robot; `astray`, if the gyro
-%       contradicts the wheels; `unplugged`, if its sensor or
-%       a motor is; `stopped`, if another thread stopped it while it moved.
-%       A stop while it stands and plans has no effect.
+%       contradicts the wheels; `unplugged`, if its sensor or a motor is;
+%       `stopped`, if another thread stopped it while it moved. A stop while
+%       it stands and plans has no effect.
 %     - steps(+Count)
 %       Default is 200.
 %     - obstacles(-Polygons)
 %       What was seen that Map lacks, facts as a map has.
 %
 %   Fails unless Goal is reached, unless asked for the reason; `debug(ev3dev)`
-%   tells it. Nothing moves if there is no way on Map as it is. Fails also if
-%   no robot is set or it has no ultrasonic sensor. The robot stands when it
-%   ends, also by an exception.
+%   reports it. Nothing moves if there is no path on Map as it is. Fails also
+%   if no robot is set or it has no ultrasonic sensor. The robot stands when
+%   it ends, also by an exception.
 %
 %   If something moves into a place that was seen free, the robot stops as
 %   soon as the sensor shows it, forgets what it had seen there, and plans

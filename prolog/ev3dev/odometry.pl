@@ -21,7 +21,7 @@
 
 /** <module> Odometry: where the robot is
 
-The part of library(ev3dev/drive) that tells where the robot is, and holds its
+The part of library(ev3dev/drive) that knows where the robot is, and holds its
 options. The pose counts from when a robot is set.
 */
 
@@ -30,11 +30,12 @@ options. The pose counts from when a robot is set.
 %   Ask for an option of the library, or set it if Value is bound:
 %
 %     - use_gyro: `true` (default) or `false`
-%       Whether a gyro, if one is connected, tells the heading. While it does
+%       Whether a gyro, if one is connected, gives the heading. While it does
 %       it also teaches how much wheels and axle differ from what set_robot/4
 %       says, by slipping for one; with `false` that is forgotten.
 %     - speed: 40
-%       In percent, or as `cm_per_s(20)`, for moves that are not told one.
+%       In percent, or as `cm_per_s(20)`, for moves without a speed of their
+%       own.
 %     - acceleration: 50
 %       In cm/s^2, from 1 to 1000.
 %
@@ -74,10 +75,10 @@ in_unit(Speed, Expression) :-
 
 %!  pose(-X, -Y, -Heading) is semidet.
 %
-%   Where the robot is, as far as wheels and gyro tell. Counts from 0, 0, 0
-%   where it was when set_robot/4 was called first, or from set_pose/3.
-%   May be asked while it moves, by any thread. Fails if no robot is set or a
-%   motor is not connected.
+%   Where the robot is, by its wheels and its gyro. Counts from 0, 0, 0 where
+%   it was when set_robot/4 was called first, or from set_pose/3. May be asked
+%   while it moves, by any thread. Fails if no robot is set or a motor is not
+%   connected.
 
 pose(X, Y, Heading) :-
     robot(Robot, UseGyro),
@@ -106,8 +107,8 @@ set_pose(X, Y, Heading) :-
 %   rows, `[[XX,XY,XH], [XY,YY,YH], [XH,YH,HH]]`, in cm and degrees. The
 %   square root of XX is the standard deviation of x. It grows with the way,
 %   from what wheels and axle are usually off, and is 0 after set_pose/3: each
-%   wheel by 0.75 %, the axle by 3 % until the gyro has told more. Wheels that
-%   slip more than that are not in it; how long a way was no gyro tells.
+%   wheel by 0.75 %, the axle by 3 % until the gyro has shown more. Wheels
+%   that slip more than that are not in it; no gyro measures a distance.
 
 pose_uncertainty(Covariance) :-
     robot(Robot, UseGyro),

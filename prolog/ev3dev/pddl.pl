@@ -217,7 +217,7 @@ typed([Item|Items], Names, Pairs, Path) :-
     ;   atom(Item)
     ->  append(Names, [Item], Names1),
         typed(Items, Names1, Pairs, Path)
-    ;   format(atom(Why), 'a name is expected, and not ~p', [Item]),
+    ;   format(atom(Why), 'a name is expected, not ~p', [Item]),
         wrong(Path, Why)
     ).
 
@@ -448,7 +448,7 @@ condition(E, Bound, T, Path, P) :-
     (   E = [Word|Rest],
         condition(Word, Rest, Bound, T, Path, P0)
     ->  P = P0
-    ;   format(atom(Why), 'a condition is expected, and not ~p', [E]),
+    ;   format(atom(Why), 'a condition is expected, not ~p', [E]),
         wrong(Path, Why)
     ).
 
@@ -543,7 +543,7 @@ argument(A0, Bound, Path, A) :-
         )
     ;   atom(A0)
     ->  A = A0
-    ;   format(atom(Why), 'an object is expected, and not ~p', [A0]),
+    ;   format(atom(Why), 'an object is expected, not ~p', [A0]),
         wrong(Path, Why)
     ).
 
@@ -555,7 +555,7 @@ init([not|_], _, _, _, _) :-
 init(Atom, T, Path, Kind, Fact) :-
     (   Atom = [_|_]
     ->  atom_term(Atom, [], T, Path, Kind, Fact)
-    ;   format(atom(Why), 'a fact is expected, and not ~p', [Atom]),
+    ;   format(atom(Why), 'a fact is expected, not ~p', [Atom]),
         wrong(Path, Why)
     ).
 

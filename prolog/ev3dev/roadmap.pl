@@ -87,7 +87,7 @@ and Goal may be arithmetic expressions.
 %       Of the way, along its arcs.
 %
 %   Fails if no way was found, also if an obstacle is too near to Start or
-%   Goal; `debug(ev3dev)` tells why.
+%   Goal; `debug(ev3dev)` prints why.
 %
 %   @error existence_error(world, Map)
 %   @error domain_error(roadmap_fact, Fact) if a map has no such facts

@@ -82,7 +82,7 @@ robot stands, if they end early:
 %       motors. By default they keep theirs, which is 1 at first.
 %     - axle_offset(+Cm)
 %       How far the axle is ahead of the point that pose/3 of
-%       library(ev3dev/drive) tells, and turns around it. Default is 0.
+%       library(ev3dev/drive) reports, and turns around it. Default is 0.
 %
 %   calibrate/3 of library(ev3dev/drive) finds the figures out.
 %

@@ -111,8 +111,14 @@ user:term_expansion((Head :: Guard -> Action), _) :-
     ev3dev_rules:wrong_arrow((Head :: Guard -> Action)).
 
 wrong_arrow(Rule) :-
-    throw_error(existence_error(rule, Rule), _,
-                'between a guard and an action stands ~>, not ->').
+    Rule = (Head :: _),
+    (   callable(Head),
+        head(Head, Name, _)
+    ->  true
+    ;   Name = Head
+    ),
+    format(atom(Text), 'rule ~p: write ~~> instead of ->', [Name]),
+    throw_error(existence_error(rule, Rule), _, Text).
 
 %   A multifile predicate, so that rules may stand in several files.
 rule_clauses(Head, Guard0, Action,
@@ -351,7 +357,7 @@ deadline(Options, Deadline) :-
 active(Behavior, Active) :-
     arg(4, Behavior, Active).
 
-%   That of the active rule, if it stands in a file.
+%   File and line of the active rule, if it is in a file.
 
 :- multifile ev3dev_causes:active_clause/1.
 
@@ -508,7 +514,7 @@ failed(E, Name, Where, Behavior) :-
 :- multifile prolog:message//1.
 
 prolog:message(ev3dev(rule_failed(Name))) -->
-    [ 'Rule ~p: its action failed'-[Name] ].
+    [ 'The action of rule ~p failed'-[Name] ].
 
                  /*******************************
                  *           ACTIONS            *
@@ -575,7 +581,7 @@ take(Rule, Behavior) :-
         pass_if_going(Index, Behavior)
     ).
 
-%   At its return, if it has not waited.
+%   Called when an action returns that has not waited.
 motors_left(First, Before) :-
     motors_stop_(First, Before),
     motors_leave_(First, First).
@@ -764,7 +770,7 @@ behavior(Behavior, Action) :-
         Behavior \== []
     ->  true
     ;   throw_error(permission_error(Action, behavior, none), _,
-                    'no behave/1 is under way')
+                    'no behave/1 is running')
     ).
 
 %!  send_message(+Message) is det.

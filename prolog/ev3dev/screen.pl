@@ -176,7 +176,7 @@ size(Expression, Pixels) :-
     place(Expression, Pixels),
     (   Pixels >= 0
     ->  true
-    ;   format(atom(Text), 'a number from 0 to 10000 is expected, not ~w',
+    ;   format(atom(Text), 'the number must be from 0 to 10000, not ~w',
                [Pixels]),
         throw_error(domain_error(pixels, Expression), _, Text)
     ).

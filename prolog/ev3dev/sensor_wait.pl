@@ -97,7 +97,7 @@ must_not_be_goal(Options) :-
     (   compound(Options),
         Options \= [_|_]
     ->  throw_error(type_error(list, Options), _,
-                    'a condition of several goals stands in parentheses, \c
+                    'put parentheses around a condition of several goals, \c
                      as in sensor_wait((Goal1, Goal2))')
     ;   true
     ).

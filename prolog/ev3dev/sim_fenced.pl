@@ -100,7 +100,7 @@ Ended = over,
 %     - told(Lines)
 %       Lines is a list of Time-Text, what began when, in words: rules that
 %       became active, events, actions of Golog. The first 4000 are kept, and
-%       the program could tell anything.
+%       the program could say anything.
 %
 %   While it runs, no other thread may let simulated time pass. Fails if no
 %   simulation runs.
@@ -340,8 +340,8 @@ starts_enclosed :-
           process_wait(Pid, exit(0), []) ),
         delete_directory_and_contents(Directory)).
 
-%   What bwrap is told to shut in what follows. The system's programs and
-%   libraries can be read, but nobody's home.
+%   The arguments with which bwrap shuts in what follows. The system's
+%   programs and libraries can be read, but nobody's home.
 
 enclosure(Directory, Path, Walls) :-
     atom_concat(Directory, '/own', Own),

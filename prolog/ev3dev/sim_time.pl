@@ -110,8 +110,8 @@ collect_snapshots.
 
 %!  sim_at(+Seconds, :Goal) is semidet.
 %
-%   Plan to call Goal once at a simulated time, as sim_time/1 tells it. Does
-%   not wait. So a test lets something happen to a program:
+%   Plan to call Goal once at a simulated time, see sim_time/1. Does not wait.
+%   So a test lets something happen to a program:
 %
 %   ```
 %   ?- sim_at(3, sim_unplug(outB)), go_cm(20, 200).

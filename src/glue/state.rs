@@ -286,7 +286,7 @@ pub(crate) fn chosen_devices() -> Option<Arc<Registry>> {
     current().chosen_devices()
 }
 
-/// Stops the motors of all bricks that the program started, where nobody is told what fails.
+/// Stops the motors of all bricks that the program started, where nobody hears what fails.
 pub(crate) fn stop_started() {
     let _ = on_all_bricks(motor::stop_started);
 }

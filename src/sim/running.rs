@@ -52,7 +52,7 @@ pub(super) fn running_simulation() -> Option<Arc<Simulation>> {
     locked(&RUNNING).get(&brick_number()).map(|running| Arc::clone(&running.simulation))
 }
 
-/// Those of all bricks.
+/// The simulations of all bricks.
 pub(crate) fn running_simulations() -> Vec<Arc<Simulation>> {
     locked(&RUNNING).values().map(|running| Arc::clone(&running.simulation)).collect()
 }

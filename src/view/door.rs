@@ -81,7 +81,7 @@ natives! {
         Ok(())
     }
 
-    /// view_shut_(+Bye): ends the server and all pages, which are told this.
+    /// view_shut_(+Bye): ends the server and all pages, which get this word.
     semidet fn "view_shut_"(context, bye) {
         let bye = terms::text(&Call::of(context, "view_stop", 0), bye)?;
         door()?.close(&bye);

@@ -14,7 +14,7 @@ pub(super) fn outside<T>(act: impl FnOnce() -> T) -> T {
     done
 }
 
-/// The time that frames tell.
+/// The time in frames.
 fn now() -> Duration {
     match watched_simulation() {
         Some(simulation) => simulation.machine().now(),

@@ -261,10 +261,15 @@ test(a_measure_may_be_an_expression, [ forall(measure(2*3, Goal)) ]) :-
     with_sim(room,
              ( set_robot(5.6, 10.6, outB, outC), ignore(Goal) )).
 test(what_is_no_measure_is_the_same_error_everywhere,
-     [ forall(measure(a, Goal)),
-       error(type_error(evaluable, a/0), context(_, 'a number is expected, not a')) ]) :-
+     [ forall(measure(a, Goal)), true(Formal == type_error(evaluable, a/0)),
+       nondet ]) :-
     with_sim(room,
-             ( set_robot(5.6, 10.6, outB, outC), Goal )).
+             ( set_robot(5.6, 10.6, outB, outC),
+               catch(Goal, error(Formal, context(_, Text)), true) )),
+    (   Text == 'a number is expected, not a'
+    ;   sub_atom(Text, 0, _, _, 'the '),
+        sub_atom(Text, _, _, 0, ' argument must be a number, not a')
+    ).
 test(an_overflow_is_of_what_was_called,
      error(evaluation_error(_), context(arc_cm/3, _))) :-
     with_sim(room,
@@ -294,9 +299,9 @@ test(say_what_is_meant,
                      [ motors_run([outB])-"run(Port, Speed) is expected, not outB",
                        motors_run(run(outB, 50))-"Did you mean [run(outB,50)]?",
                        motors_turn([move(outB, 5)], [])-": move(Port,Speed,Angle), to(",
-                       motor_ramps(outB, 1, -1)-"an integer from 0 to 60000 is expected, not -1",
-                       drive_option(speed, 200)-"other than 0 is expected, not 200",
-                       go_to([1, 2], 3)-"a number is expected, not [1,2]",
+                       motor_ramps(outB, 1, -1)-"the integer must be from 0 to 60000, not -1",
+                       drive_option(speed, 200)-"from -100 to 100 percent and must not be 0, not 200",
+                       go_to([1, 2], 3)-"must be a number, not [1,2]",
                        go_to(1-2, [speed(3)])-"a number is expected, not ",
                        sensor_wait(us_dist_cm(in1, _))-"us_dist_cm(in1,_) is not one of",
                        sim_unplug(in9)-"in1 to in4 and outA to outD, not in9",
@@ -304,11 +309,11 @@ test(say_what_is_meant,
                        sim_restore(x)-"sim_snapshot/1",
                        sim_add(box)-"box(X,Y,Width,Length)",
                        sim_svg('no/such/folder.svg')-"there is no file 'no/such/folder.svg'",
-                       screen_circle(50, 50, -3)-"from 0 to 10000 is expected, not -3",
+                       screen_circle(50, 50, -3)-"the number must be from 0 to 10000, not -3",
                        on(us_dist_cm(in1, D) < 20, D)-"us_dist_cm(Port) < 20, or us_dist_cm(Port, X), X < 20",
                        until(us_dist_cm(in1, D) < 20, true)-"us_dist_cm(Port) < 20, or us_dist_cm(Port, X), X < 20",
                        until(20 > us_dist_cm(_, 5), true)-"us_dist_cm(Port) < 20, or us_dist_cm(Port, X), X < 20",
-                       until(true, true, go(30))-"stands in parentheses",
+                       until(true, true, go(30))-"put parentheses around",
                        behave([(a :: us_dist_cm(_, D) < 9 ~> true)])-"us_dist_cm(Port) < 9, or us_dist_cm(Port, X), X < 9",
                        behave([(a : true ~> true)])-"a rule is written Name :: Guard ~> Action",
                        motor_run(outB, 5, 5, [wait])-"with a value: wait(Value)",
@@ -323,12 +328,12 @@ test(say_what_is_meant,
     assertion(sub_atom(Message, _, _, _, Words)).
 test(say_what_the_arguments_are,
      [ forall(member(Goal-Words,
-                     [ motor_run(50, outB)-"; its form is motor_run(Port, Speed)",
-                       motor_run(1, 50)-"; its form is motor_run(Port, Speed)",
-                       led(red, left)-"; its form is led(Light, Color)",
+                     [ motor_run(50, outB)-"motor_run(Port, Speed): Speed must be a number, not outB",
+                       motor_run(1, 50)-"motor_run(Port, Speed): Port must be an atom or a string, not 1",
+                       led(red, left)-"led(Light, Color): left is not one of",
                        set_robot(outB, outC, 5.6, 10.6)
                            -"set_robot(WheelDiameter, AxleLength, Left, Right)",
-                       for_seconds(go(20), 3)-"; its form is for_seconds(Seconds, Goal)",
+                       for_seconds(go(20), 3)-"for_seconds(Seconds, Goal): there is no arithmetic function go/1",
                        sim_place(0, 0, 0)-"sim_place/3: robot at 0, 0 is inside" ])) ]) :-
     with_sim(room, catch(( Goal, E = none ), E, true)),
     text_of(E, Text),

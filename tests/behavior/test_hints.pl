@@ -43,8 +43,8 @@ a_robot :-
 %   absent(Goal, Start): Goal fails for want of a device; so the hint begins.
 absent(i2c_read(in9, 0, 8, _), 'there is no sensor at in9; there are: in1').
 absent(i2c_write(in9, 65, [1]), 'there is no sensor at in9; there are: in1').
-absent(analog_voltage(in1, _), 'in1 has lego-ev3-us, no sensor that is a voltage; there are: in1').
-absent(analog_voltage(_, _), 'no sensor that is a voltage is connected; there are: in1').
+absent(analog_voltage(in1, _), 'in1 has lego-ev3-us, no analog sensor; there are: in1').
+absent(analog_voltage(_, _), 'no analog sensor is connected; there are: in1').
 absent(motor_run(outb, 50), 'there is no motor at outb; there are: outA').
 absent(motor_run("outb", 50), 'there is no motor at outb; there are: outA').
 absent(motor_run(in1, 50), 'in1 has lego-ev3-us, no motor; there are: outA').
@@ -111,7 +111,7 @@ absent(adjust_val(in9, 1, _), 'there is no sensor at in9').
 absent(sensor_reading(foo, _, _), 'no sensor has a reading foo').
 absent(set_robot(5, 9, outB, outE), 'there is no motor at outE').
 absent(set_robot(5, 9, outA, outB),
-       'outA (lego-ev3-m-motor) and outB (lego-ev3-l-motor) are not two motors of').
+       'outA (lego-ev3-m-motor) and outB (lego-ev3-l-motor) are motors of different types').
 absent(set_robot(5, 9, outB, outB), 'outB is one motor, and a robot needs two').
 absent(us_dist_cm(in1, white), 'us_dist_cm/2 gives a number, not white').
 absent(us_dist_cm(_, in1), 'us_dist_cm/2 gives a number, not in1: the port is the first').

@@ -42,7 +42,7 @@ test(what_is_none_is_the_same_error_everywhere,
                 with_place(No, Goal) )),
        true(Words == Expected) ]) :-
     catch(in_a_world(Goal), error(domain_error(place, No), context(_, Words)), true),
-    format(atom(Expected), "a place X-Y is expected, not ~p", [No]).
+    format(atom(Expected), "a place must be X-Y, not ~p", [No]).
 test(what_has_no_coordinates_is_the_same_error_everywhere,
      [ forall(( member(No, [a-20, [15, a]]), with_place(No, Goal) )),
        true(Words == 'a number is expected, not a') ]) :-

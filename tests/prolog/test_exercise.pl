@@ -130,7 +130,7 @@ test(one_that_goes_wrong_on_its_way, Points == 10) :-
     assertion(sub_atom(Reason, 0, _, _, 'It ended at ')),
     assertion(sub_atom(Reason, _, _, _, 'nothing/0')).
 test(why_it_has_no_points, true(Reasons = [ 'It did not use the robot.',
-                                            'Does not end: 1 s of processor time, at 0.0 s of the robot\'s.',
+                                            'Stopped after 1 s of processor time (robot time 0.0 s).',
                                             'Line 2, column 11: Operator expected.' ])) :-
     reason([halts_at_once, does_not_end, does_not_parse], Reasons).
 test(what_is_forbidden, Points-Reason == 0-'Line 2: secret/1 may not be used here.') :-
@@ -160,7 +160,7 @@ draws(Points) :-
 %   Its machine is too busy for the first run, or for all.
 test(a_run_that_is_lost_is_made_again,
      [ forall(member(Until-Points/Reason,
-                     [ 1-10/'', 9-0/'It was not judged, as the machine was too busy: mark it again.' ])),
+                     [ 1-10/'', 9-0/'It was not marked, because the machine was too busy: mark it again.' ])),
        Points0/Reason0 == Points/Reason ]) :-
     tmp_file(lost, Count),
     format(string(Happens), "happens(_) :- lost_until(~w, ~q).", [Until, Count]),

@@ -215,32 +215,32 @@ test(a_command_in_words, [ forall(sentence(Goal, What, Text)), true(Line == Text
 
 sentence(because(motor_run(outB, -30),
                  rule(avoid, (us_dist_cm(_, 18.4), 18.4 < 25))), outB,
-         "outB runs at -30 % since 2.01 s: rule avoid, us_dist_cm 18.4 < 25").
+         "outB runs at -30 %, since 2.01 s: rule avoid, us_dist_cm 18.4 < 25").
 sentence(motor_run(outB, 30), outB,
-         "outB runs at 30 % since 2.01 s: motor_run/2 was called").
+         "outB runs at 30 %, since 2.01 s: motor_run/2 was called").
 sentence(true, outB, "outB: no command is recorded").
 sentence(because(motor_run(outB, 50, 360), event(e1, touch(in4, 1))), outB,
          "outB was turned by 360 degrees at 50 % at 2.01 s: event e1, touch in4 1").
 sentence(( motor_gear(outB, 3), motor_run(outB, 50, 120) ), outB,
          "outB was turned by 120 degrees at 50 % at 2.02 s: motor_run/4 was called").
 sentence(because(arc(30, 20), golog(go(kitchen))), robot,
-         "the robot runs its wheels at 30 % and 17 % since 2.02 s: golog: go(kitchen)").
+         "the robot runs its wheels at 30 % and 17 %, since 2.02 s: golog: go(kitchen)").
 sentence(because(motor_run(outB, 30), golog(12, drive(3), at(robot) = 2)),
          outB,
-         "outB runs at 30 % since 2.01 s: golog: step 12, drive(3): poss at(robot)=2").
+         "outB runs at 30 %, since 2.01 s: golog: step 12, drive(3): poss at(robot)=2").
 sentence(because(because(motor_run(outB, 30), golog(1, drive(3), true)),
                  interrupt(calls > 0)), outB,
-         "outB runs at 30 % since 2.01 s: golog: step 1, drive(3); interrupt calls>0").
+         "outB runs at 30 %, since 2.01 s: golog: step 1, drive(3); interrupt calls>0").
 sentence(because(turn(30, 90, [wait(false)]), rule(x, true)), outB,
-         "outB drives the robot since 2.02 s: it turns by 90 degrees at 30 %; rule x").
+         "outB drives the robot, since 2.02 s: move \"turn by 90 degrees at 30 %\"; rule x").
 sentence(because(motor_run(outB, 30), rule(r, (\+ touch(in4, 1), (light(9) ; a)))), outB,
-         "outB runs at 30 % since 2.01 s: rule r, not touch in4 1, light 9 or a").
+         "outB runs at 30 %, since 2.01 s: rule r, not touch in4 1, light 9 or a").
 sentence(go_to(10, 20, [wait(false)]), robot,
-         "the robot goes to (10, 20) at 40 % since 2.02 s").
+         "the robot goes to (10, 20) at 40 %, since 2.02 s").
 sentence(go_to(0, 20.123, 0, [wait(false), speed(30)]), robot,
-         "the robot goes to (0, 20.12), turns to heading 0 at 30 % since 2.02 s").
+         "the robot goes to (0, 20.12), turns to heading 0 at 30 %, since 2.02 s").
 sentence(face(887.4567, [wait(false), speed(30)]), robot,
-         "the robot turns to heading 167.46 at 30 % since 2.02 s").
+         "the robot turns to heading 167.46 at 30 %, since 2.02 s").
 sentence(motor_stop(outB, hold), stop,
          "outB was stopped (hold) at 2.01 s: motor_stop/2 was called").
 sentence(( go(20), wait(1), because(stop, halt) ), stop,
@@ -260,18 +260,18 @@ sentence(( go(20), motor_stop(outB, hold), wait(0.1), motor_stop(outC, hold) ), 
 sentence(( motor_reset(outB), motor_reset(outC) ), stop,
          "outB and outC were reset at 2.02 s: motor_reset/1 was called").
 sentence(because(motor_run(outB, 20), rule(r, (us_dist_cm(_, D), D < 9))), outB,
-         "outB runs at 20 % since 2.01 s: rule r, us_dist_cm, _ < 9").
+         "outB runs at 20 %, since 2.01 s: rule r, us_dist_cm, _ < 9").
 sentence(because(motor_run(outB, 20), rule(r, (near(in1, 7, force), 7 < 9, x))), outB,
-         "outB runs at 20 % since 2.01 s: rule r, near 7 < 9, x").
+         "outB runs at 20 %, since 2.01 s: rule r, near 7 < 9, x").
 sentence(because(motor_run(outB, 20), f(_, g(_))), outB,
-         "outB runs at 20 % since 2.01 s: f(_,g(_))").
+         "outB runs at 20 %, since 2.01 s: f(_,g(_))").
 sentence(because(motor_run(outB, 20), rule(r, G)), outB,
-         "outB runs at 20 % since 2.01 s: rule r, _") :-
+         "outB runs at 20 %, since 2.01 s: rule r, _") :-
     member(G, [_, _:_]).
 sentence(led(left, green), left,
-         "the light left is green since 2.01 s: led/2 was called").
+         "the light left is green, since 2.01 s: led/2 was called").
 sentence(led_blink(left, 100, 200), left,
-         "the light left blinks (100 ms on, 200 off) since 2.51 s: led_blink/3 was called").
+         "the light left blinks (100 ms on, 200 off), since 2.51 s: led_blink/3 was called").
 sentence(because(tones([tone(440, 100), tone(880, 100)]), song), sound,
          "the brick played 440 Hz 880 Hz at 2.01 s: song").
 sentence(because(say(hello), greeting), sound, "the brick said hello at 2.01 s: greeting").

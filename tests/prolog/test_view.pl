@@ -627,7 +627,7 @@ test(commands_in_words, true(Texts == Expected)) :-
     findall(Text, ( member(Line, Frame.log), Line.kind == "command",
                     Text = Line.text ), Texts),
     Expected = [ "outA runs at 30 %", "outA was turned by 360 degrees at 50 %",
-                 "the robot goes 5 cm at 30 %", "the robot rests (reached)",
+                 "the robot goes 5 cm at 30 %", "the robot stands still (reached)",
                  "the light left is green" ].
 test(numbers_are_short, true(Numbers == [0.3, -0.05, 2, null, 0.333333])) :-
     paged(Page,

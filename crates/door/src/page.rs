@@ -50,7 +50,7 @@ struct Reading {
     is_asked: bool,
 }
 
-/// A message; its fault is the code that the other side is told.
+/// A message; its fault is the code for the other side.
 enum Message {
     Line(String),
     Ping(Vec<u8>),

@@ -66,7 +66,7 @@ pub trait Stream: Send + Sync {
     /// The kernel's.
     fn skip(&self) -> io::Result<()>;
 
-    /// Which keys are down, a bit for each code, as EVIOCGKEY reports.
+    /// The keys that are down, a bit for each code, as EVIOCGKEY reports.
     ///
     /// # Errors
     /// ENOTTY where the file is no such device.

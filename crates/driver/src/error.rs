@@ -103,7 +103,7 @@ pub enum Error {
         name: String,
     },
     /// The pattern is malformed.
-    #[error("{pattern:?} is no file name pattern")]
+    #[error("{pattern:?} is not a file name pattern")]
     Pattern {
         /// The pattern.
         pattern: String,

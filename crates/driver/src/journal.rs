@@ -332,7 +332,7 @@ pub enum Act {
     Course(Arc<Course>),
     /// The course ended; the reason.
     Ended(Arc<Course>, &'static str),
-    /// The robot was told where it is.
+    /// The robot was given its pose.
     Pose(Box<Place>),
     /// A light changed.
     Light(Name, LightChange),

@@ -11,7 +11,7 @@ const LOOKS: usize = 70;
 const AROUND: f64 = 250.0;
 /// Looks from farther back on the way than this do not count for it, in cm.
 const WAY: f64 = 150.0;
-/// Looks so near to the last one, in degrees and cm, tell nothing new.
+/// Looks so near to the last one, in degrees and cm, add nothing new.
 const SAME_LOOK: [f64; 2] = [2.0, 2.0];
 /// A new measurement counts for so much of the fit.
 const SMOOTH: f64 = 0.03;
@@ -29,7 +29,7 @@ const LEAST_OF_PLACE: f64 = 30.0;
 /// A place belongs to a cluster that is so near, in cm and degrees.
 const IN_CLUSTER: [f64; 2] = [20.0, 20.0];
 
-/// A cluster of so much of the probability, and of such a deviation in cm, tells where it is.
+/// A cluster with this share of the probability and this deviation in cm is the robot's place.
 const SURE: f64 = 0.9;
 const NARROW: f64 = 10.0;
 

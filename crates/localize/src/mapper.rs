@@ -15,7 +15,7 @@ const CELL: f64 = 5.0;
 /// Half of the cone that an echo may come from, and of that which is surely free, in degrees.
 const ECHO: f64 = 15.0;
 const FREE: f64 = 12.0;
-/// So much before an echo the cone is no longer surely free, in cm.
+/// The distance before an echo at which the cone may no longer be free, in cm.
 const BEFORE: f64 = 3.0;
 /// Echoes from farther are too vague, in cm.
 const VAGUE: f64 = 150.0;
@@ -98,7 +98,7 @@ pub struct Mapper {
     last: Option<Pose>,
     trail: Vec<Point>,
     tried: Vec<Point>,
-    /// That of all looks, if there is none since.
+    /// The grid of all looks, if none came since.
     grid: Option<Grid>,
 }
 
@@ -176,8 +176,9 @@ impl Mapper {
         walls
     }
 
-    /// The nearest place that a robot with a round hull can reach over what was seen free, and
-    /// that borders on what was not seen, or is far from all those before; it is not told again. `None` if all is explored.
+    /// The nearest place that a robot with a round hull can reach over what was seen free, and that
+    /// borders on what was not seen, or is far from all those before; it is not reported again.
+    /// `None` if all is explored.
     pub fn frontier(&mut self, from: Point, hull: f64) -> Option<Point> {
         if self.tried.is_empty() {
             self.tried.push(from);

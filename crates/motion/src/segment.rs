@@ -154,8 +154,8 @@ impl Segment {
         Self { length, to: self.at(length).point(), ..*self }
     }
 
-    /// Where a point is with respect to it. `near` is a guess of how far along,
-    /// which tells the turns of an arc apart.
+    /// Where a point is with respect to it. `near` is a guess of how far along, which distinguishes
+    /// the turns of an arc.
     #[must_use]
     pub fn locate(&self, [x, y]: Point, near: f64) -> Place {
         let [sin, cos] = self.direction;

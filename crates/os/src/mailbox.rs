@@ -40,7 +40,7 @@ const LOOKS: u32 = 100;
 const GONE: Duration = Duration::from_micros(50);
 const SHY: u32 = 100;
 
-/// Who writes: the numbers of the words that say so.
+/// The side that writes: the numbers of the words that say so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Side {

@@ -17,7 +17,7 @@ pub enum NoWay {
     GoalBlocked,
     /// The search found no path. If the visibility graph found none, there is no path
     /// that keeps 2 % more distance.
-    #[error("there is no way between the obstacles")]
+    #[error("there is no path between the obstacles")]
     None,
 }
 

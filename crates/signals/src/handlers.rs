@@ -29,8 +29,8 @@ const CRASHES: [c_int; 7] = [
     libc::SIGSYS,
 ];
 
-/// Those of which Prolog makes an exception. Older ones do so in the handler, which waits for
-/// ever if the thread has a lock that it needs.
+/// The signals of which Prolog makes an exception. Older versions do so in the handler, which hangs
+/// if the thread has a lock that it needs.
 const THROWN: [c_int; 4] = [libc::SIGALRM, libc::SIGXCPU, libc::SIGXFSZ, libc::SIGVTALRM];
 
 /// Those that end nothing by themselves, and those that nobody can take. The C library has
@@ -241,8 +241,8 @@ fn bit(signal: c_int) -> u32 {
     1 << signal
 }
 
-/// Sends a signal that the handler passes on. What the signal itself carries does not tell
-/// that: a library that edits lines calls the handler as one without such an argument.
+/// Sends a signal that the handler passes on. What the signal itself carries does not say that: a
+/// library that edits lines calls the handler as one without such an argument.
 pub(crate) fn send_on(signal: c_int) {
     LOOKED_AT.fetch_or(bit(signal), Ordering::AcqRel);
     // Safety: to this process.
@@ -283,7 +283,7 @@ fn stand(signal: c_int) {
 }
 
 fn stand_alone(signal: c_int) {
-    const SAID: &[u8] = b"% ev3dev: the motors were stopped while the program stood\n";
+    const SAID: &[u8] = b"% ev3dev: the motors were stopped while the program was suspended\n";
     let stopped = stop_for(Reason::Standing);
     let ours = action(signal);
     // Safety: what a handler may do. It is put back when the process has been continued.

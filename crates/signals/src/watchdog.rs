@@ -109,7 +109,7 @@ unsafe extern "C" fn main_is_over(_: *mut c_void) {
     send(MAIN_IS_OVER, 0);
 }
 
-/// What the asker does: the watchdog tells it what it is told itself.
+/// The asker: the watchdog passes its own words on to it.
 fn answer(mut questions: &UnixStream, asked: &Asked) {
     let mut told = [0; 2];
     while questions.read_exact(&mut told).is_ok() {
@@ -200,7 +200,7 @@ impl Watchdog {
         self.is_told(pause.map_or(look, |pause| look.min(pause + Duration::from_millis(1))));
     }
 
-    /// Whether it is told something within that time.
+    /// Whether a word comes within that time.
     fn is_told(&self, within: Duration) -> bool {
         let descriptor = self.events.as_raw_fd();
         let mut polled = libc::pollfd { fd: descriptor, events: libc::POLLIN, revents: 0 };

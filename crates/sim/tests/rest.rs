@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use threads::{Id, Threads};
 
-/// A thread that computes until it is told to sleep, and sleeps until it is woken.
+/// A thread that computes until it must sleep, and sleeps until it is woken.
 struct Worker {
     id: Id,
     computes: Arc<AtomicBool>,

@@ -152,7 +152,7 @@ impl Called {
                 }
             } else if let Some(quick) = self.quick {
                 let arguments = Arguments { first: terms, count: arity.try_into().unwrap_or(0) };
-                // After a panic the predicate itself is called, which tells Prolog of its own.
+                // After a panic the predicate itself is called, which reports its own to Prolog.
                 let answer = catch_unwind(AssertUnwindSafe(|| quick(&arguments)));
                 if let Ok(Some(is_true)) = answer {
                     return is_true.into();

@@ -35,7 +35,7 @@ const STATE_BYTES: usize = 96;
 /// An event of the kernel: a time of two words, then type, code and value.
 #[cfg(unix)]
 pub(crate) const EVENT_BYTES: usize = size_of::<input_linux::sys::input_event>();
-/// That of the simulated brick.
+/// The length of an event of the simulated brick.
 #[cfg(not(unix))]
 pub(crate) const EVENT_BYTES: usize = 2 * size_of::<usize>() + 8;
 
@@ -102,7 +102,7 @@ impl Button {
 /// A button was pressed or released.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Event {
-    /// Which.
+    /// The button.
     pub button: Button,
     /// Pressed, else released.
     pub is_press: bool,

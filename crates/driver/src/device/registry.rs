@@ -1,4 +1,4 @@
-//! Which devices there are, by class and port.
+//! The devices that are connected, by class and port.
 //!
 //! The kernel lists each class in a directory of its own, one entry a device,
 //! under numbers that follow the order of plugging in. Programs name ports. The

@@ -26,8 +26,7 @@ const REST_PERIOD: Duration = Duration::from_millis(100);
 /// How long that takes at most; then nothing is done until a motor is started.
 const MEASURED: Duration = Duration::from_secs(30);
 
-/// The farthest that a wheel can be told to turn, in counts: the kernel counts
-/// with 32 bits.
+/// The farthest that a wheel can be commanded to turn, in counts: the kernel counts with 32 bits.
 const MOST_COUNTS: f64 = 2_147_483_647.0;
 
 /// The state of a robot and its motion.

@@ -429,8 +429,8 @@ impl Steering {
 
     fn follow_on(&mut self, pose: Pose, seconds: f64, mut way: Way) -> Order {
         let sign = if self.is_backwards { -1.0 } else { 1.0 };
-        // Where the robot is when the motors have followed. What they are told to do
-        // now counts from there.
+        // Where the robot is when the motors have followed. What they are commanded now counts from
+        // there.
         let soon = pose.along_arc(self.speed * LAG, (self.rate * LAG).to_degrees());
         let mut place = way.part().locate(soon.point(), way.along);
         while place.along > way.part().length() && way.index + 1 < way.path.len() {

@@ -1,11 +1,10 @@
 //! Commands to a motor with ramps, where the kernel's ramps are treacherous
 //! (docs/ev3dev-sysfs.md, 3.5).
 //!
-//! A ramp begins at the measured speed. If that is `speed_sp` already, the
-//! kernel takes the ramp as done and tells the motor nothing: a move to a position
-//! is ignored, and a motor that turned turns on. It may also lead the motor away
-//! from its target, if it turns the other way when the ramp begins. So a motor that
-//! may turn gets a move to a position without ramps, which does neither.
+//! A ramp begins at the measured speed. If that is `speed_sp` already, the kernel takes the ramp as
+//! done and sends the motor nothing: a move to a position is ignored, and a motor that turned turns
+//! on. It may also lead the motor away from its target, if it turns the other way when the ramp
+//! begins. So a motor that may turn gets a move to a position without ramps, which does neither.
 //!
 //! A timed run that is over before its ramp up is, starts again: the kernel
 //! forgets to cancel the ramp. With a ramp down, however short, it does not.

@@ -106,7 +106,7 @@ pub(crate) struct Motor {
     pub(crate) stop_actions: &'static [&'static str],
     /// How long the speed takes to follow.
     pub(crate) lag: Duration,
-    /// How late `state` tells.
+    /// The delay of `state`.
     pub(crate) state_lag: Duration,
     /// Whether the wheel is held fast.
     pub(crate) is_blocked: bool,

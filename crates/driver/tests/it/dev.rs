@@ -113,7 +113,7 @@ fn a_tone_ends_however_it_is_left() {
     assert_eq!(fs::read(&path).unwrap(), written, "nothing sounds");
 }
 
-/// A screen that is a device: it does not tell how long it is.
+/// A screen that is a device: it does not say how long it is.
 struct Device {
     root: PathBuf,
 }

@@ -1,4 +1,4 @@
-//! Which devices there are.
+//! The devices that are connected.
 use crate::files::PlainTree;
 use ev3_driver::device::registry::LISTING_AGE;
 use ev3_driver::{Class, Errno, Error, Registry, SysfsDir};

@@ -1,4 +1,4 @@
-//! Where a robot is, from what its wheels and its gyro tell.
+//! The pose of a robot, from its wheels and its gyro.
 use ev3_driver::drive::odometry::{Estimate, Wheels};
 use ev3_motion::{Pose, wrapped};
 use proptest::prelude::*;
@@ -36,7 +36,7 @@ fn readings_that_agree_change_little_and_those_that_do_not_turn_the_robot() {
     let mut estimate = Estimate::default();
     estimate.observe_gyro(0.0);
     for step in 0..50 {
-        // The left wheel slips: the robot turns, and the wheels do not tell.
+        // The left wheel slips: the robot turns, and the wheels do not show it.
         estimate.predict(&WHEELS, [1.0, 1.0], 0.05);
         estimate.observe_gyro((f64::from(step) / 5.0).round());
     }
@@ -110,7 +110,7 @@ impl Ride {
                 [ways[0] * (1.0 + left), ways[1] * (1.0 + right)],
                 Self::STEP,
             );
-            // Both encoders and the gyro tell whole degrees.
+            // Both encoders and the gyro report whole degrees.
             let per_degree = WHEELS.cm_per_count(0, 360.0);
             let told = std::array::from_fn(|side| {
                 let before = self.angles[side].round();
@@ -292,9 +292,9 @@ proptest! {
         }
         let (pose, truth) = (ride.estimate.pose(), ride.truth.pose());
         let variances = ride.estimate.uncertainty();
-        // Each of the three errors is within its standard deviation, so what they
-        // do together is within the root of 3; but that arcs are no straight lines,
-        // and that encoders tell whole degrees.
+        // Each of the three errors is within its standard deviation, so what they do together is
+        // within the root of 3; but that arcs are no straight lines, and that encoders report whole
+        // degrees.
         let off = [pose.x - truth.x, pose.y - truth.y, pose.heading - truth.heading];
         let curved = way * bent * bent;
         for (state, more) in [curved, curved, 0.0].into_iter().enumerate() {
@@ -303,7 +303,7 @@ proptest! {
         }
     }
 
-    /// Way and turn, and the ways of the wheels, tell the same.
+    /// Way and turn, and the ways of the wheels, say the same.
     #[test]
     fn twists_and_ways_agree(left in way(), right in way()) {
         let (way, turn) = WHEELS.twist([left, right]);

@@ -241,7 +241,7 @@ fn a_motor_may_end_ten_counts_short_of_its_target() {
 
 #[test]
 fn a_board_that_shows_holding_together_with_running_is_done_when_it_is_there() {
-    // NXTMMX and PiStorms, which tell no speed either.
+    // NXTMMX and PiStorms, which report no speed either.
     let brick = Brick::new(&["outA"]);
     brick.world().motor("outA").runs_while_holding = true;
     brick.world().motor("outA").tells_speed = false;

@@ -220,7 +220,7 @@ impl Table for Battery {
     ];
 }
 
-/// Which brick this is.
+/// The kind of this brick.
 #[derive(Clone, Debug)]
 pub(crate) struct Board;
 

@@ -157,7 +157,7 @@ impl LegoPort {
         }
     }
 
-    /// True if the port can be told which device it has: it knows the kind, but not the type.
+    /// True if a program can set the device of the port: it knows the kind, but not the type.
     fn takes_device(&self) -> bool {
         matches!(self.status(), "tacho-motor" | "nxt-analog")
     }

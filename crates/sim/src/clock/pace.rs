@@ -46,7 +46,7 @@ struct State {
 /// Whether time may pass now.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Leave {
-    /// So much of it at once.
+    /// This much of it at once.
     Go(Duration),
     /// Not before a sleep of this length.
     Wait(Duration),

@@ -23,7 +23,7 @@ const TASKS: &str = "/proc/self/task";
 /// The names of this crate's own threads, which use no simulation, begin so.
 const OURS: &str = "ev3-";
 
-/// The number of this thread. Where the kernel does not tell, it is one that no other thread has.
+/// The number of this thread. If the kernel does not say, it is one that no other thread has.
 pub(super) fn me() -> Id {
     static STRANGERS: AtomicU32 = AtomicU32::new(1 << 31);
     thread_local! {
@@ -91,9 +91,9 @@ impl Threads {
     /// Whether there was a moment at which all threads but this one were asleep. Those that stand
     /// in line may have been awake since.
     ///
-    /// Two looks tell: a thread that was asleep in both, and has left its processor equally often,
-    /// did not run in between. A thread that is awake in line may hold a lock that a sleeper
-    /// waits for, so these have to be asleep between the looks. One look tells that nobody has run
+    /// Two looks are enough: a thread that was asleep in both, and has left its processor equally
+    /// often, did not run in between. A thread that is awake in line may hold a lock that a sleeper
+    /// waits for, so these have to be asleep between the looks. One look shows that nobody has run
     /// since the last time, but those in line.
     pub(super) fn rest(&mut self, stands: impl Fn(Id) -> bool) -> bool {
         let elsewhere = |id| !stands(id);

@@ -235,7 +235,7 @@ impl Desk {
         }
     }
 
-    /// Answers the question that was received, if one was. A program that is gone is not told.
+    /// Answers the question that was received, if one was. A program that is gone gets nothing.
     pub fn answer(&mut self, machine: &mut Machine) {
         let Ok(Some((question, length))) = parsed(&self.received) else { return };
         let Answer { error, number, bytes } = self.host.answer(machine, &question);

@@ -20,7 +20,7 @@ fn id_of(index: usize) -> ItemId {
     ItemId(u32::MAX - u32::try_from(index).unwrap_or_default())
 }
 
-/// Which of several robots a collision was with, if it was with one.
+/// The robot of several that a collision was with, if it was with one.
 #[must_use]
 pub fn robot_of(id: ItemId) -> Option<usize> {
     let index = u32::MAX - id.0;

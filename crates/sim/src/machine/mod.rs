@@ -324,8 +324,8 @@ impl Machine {
     /// the next call. Wherever the robot is, its infrared sensors hear it.
     ///
     /// # Errors
-    /// If there is no such channel, or these cannot be told from others: any single one can, and
-    /// any two but the beacon's.
+    /// If there is no such channel, or these look like others: any single one is clear, and any two
+    /// but the beacon's.
     pub fn hold_buttons(&mut self, channel: u8, buttons: &[RemoteButton]) -> Result<(), SpecError> {
         let item = || format!("remote control on channel {channel}");
         let index = usize::from(channel).wrapping_sub(1);

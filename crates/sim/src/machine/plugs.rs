@@ -33,7 +33,7 @@ impl Machine {
     pub fn plug(&mut self, port: Port, driver: &str) -> Result<(), SpecError> {
         let plug = Plug::named(driver, port).ok_or_else(|| {
             let alike = if port.is_output() { motors_alike(driver) } else { sensors_alike(driver) };
-            let reason = format!("is nothing that fits this port; there are: {alike}");
+            let reason = format!("does not fit this port; there are: {alike}");
             SpecError::new(format!("{driver} on {port}"), reason)
         })?;
         if let Plug::Motor(kind) = plug {
@@ -85,7 +85,7 @@ impl Machine {
         if let (Some(Hardware::Sensor(sensor)), false) = (device, is_looked_for) {
             let is_its = plug.is_some_and(|plug| plug.is_of(sensor.kind));
             sensor.connect(is_its);
-            // Another sensor on a serial line tells the driver what it is.
+            // Another sensor on a serial line reports its type to the driver.
             if is_its || !plug.is_some_and(Plug::is_serial) {
                 socket.due = None;
             }

@@ -38,7 +38,7 @@ impl Tacho {
         self.ramp_step();
     }
 
-    /// One step. If the last one set the wanted speed, the ramp is done, and the driver is told
+    /// One step. If the last one set the wanted speed, the ramp is done, and the driver hears of it
     /// nothing: also when no step came before, as the measured speed was the wanted one.
     pub(super) fn ramp_step(&mut self) {
         if self.ramp.last == self.active.speed {

@@ -10,9 +10,9 @@ pub enum Link {
     Uart,
     /// As a voltage on pin 6, sampled every 10 ms; a resistor identifies the type.
     Analog,
-    /// As a voltage on pin 1, sampled every 10 ms. Of these the brick can tell only the light and
-    /// the touch sensor from the others: `recognized`. The others come up as `nxt-analog` until the port is
-    /// told what it has.
+    /// As a voltage on pin 1, sampled every 10 ms. Of these the brick recognizes only the light and
+    /// the touch sensor from the others: `recognized`. The others come up as `nxt-analog` until the
+    /// port is told what it has.
     NxtAnalog {
         /// Whether the brick knows it when it is plugged in.
         recognized: bool,

@@ -155,7 +155,7 @@ impl Sensor {
             return;
         }
         if is_connected {
-            // Without power it has forgotten what it was told.
+            // Without power it has forgotten its settings.
             (self.angle, self.axle) = (0.0, Axle::default());
             (self.locked, self.last_single_shot, self.selecting_until) = (false, None, 0);
             self.settings.clear();

@@ -32,7 +32,7 @@ pub struct WorldSpec {
     pub ambient: f64,
     /// Of the air and everything else, in degrees Celsius.
     pub temperature: f64,
-    /// How loud it is, in per cent of what an NXT sound sensor can tell.
+    /// How loud it is, in percent of what an NXT sound sensor can measure.
     pub loudness: f64,
     /// Where the robot starts.
     pub start: Pose,

@@ -16,8 +16,8 @@ fn desk_of(sigma: f64, seed: u64) -> Desk {
     Desk(Machine::new(&WorldSpec::default(), &robot, options).unwrap())
 }
 
-/// How far off each true position was, by whole turns. A motor that gets a fixed duty does not
-/// know of its position, so one without errors moves the same and tells the truth.
+/// How far off each true position was, by whole turns. A motor that gets a fixed duty does not know
+/// of its position, so one without errors moves the same and is exact.
 fn errors(sigma: f64, seed: u64) -> Vec<BTreeMap<i32, BTreeSet<i32>>> {
     let (mut wrong, mut right) = (desk_of(sigma, seed), desk_of(0.0, seed));
     for desk in [&mut wrong, &mut right] {

@@ -10,7 +10,7 @@ fn file(name: &str) -> String {
     format!("{L}{name}")
 }
 
-/// A short one at outD, and the port told of it.
+/// A short one at outD, and its port set to it.
 fn desk() -> Desk {
     let mut desk = Desk::new();
     desk.0.plug(Port::OutD, "act-l12-ev3-50").unwrap();

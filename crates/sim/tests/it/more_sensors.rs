@@ -627,7 +627,7 @@ fn pin_1_is_what_is_plugged_in() {
     };
     assert_eq!(pin1("").1, [5000; 2], "nothing draws it down");
     assert_eq!(pin1("lego-nxt-touch").1, [5000; 2]);
-    assert_eq!(pin1("lego-ev3-touch").1, [417; 2], "the resistor that tells its type");
+    assert_eq!(pin1("lego-ev3-touch").1, [417; 2], "the resistor that shows its type");
     assert_eq!(pin1("lego-ev3-us").1, [0; 2], "grounded");
     let (_, [dark, bright], lit) = pin1("lego-nxt-light");
     assert_eq!(bright, lit, "as its own driver has it with the lamp on");

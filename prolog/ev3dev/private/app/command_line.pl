@@ -23,12 +23,14 @@ command(view, '[FILE]', 'show the robot in a browser, and the toplevel').
 command(sim, 'WORLD', 'the same with a simulated robot').
 command(run, 'FILE', 'load a program, call start/0 or main/0 or --goal').
 command(playground, '[FOLDER]',
-        'serve the page that has Prolog and the robot in it').
-command(try, 'EXERCISE PROGRAM', 'what a program earns, and why not more').
-command(mark, 'EXERCISE PROGRAM...', 'mark programs, or those of folders').
-command(devices, '', 'what is connected').
+        'serve the page with Prolog and the robot in it').
+command(try, 'EXERCISE PROGRAM',
+        'show the points of a program, with reasons').
+command(mark, 'EXERCISE PROGRAM...',
+        'mark programs, or all programs in folders').
+command(devices, '', 'list the connected devices').
 command(check, '', 'try each motor and sensor; lift the robot first').
-command(work, '', 'make the runs that sim_batch/5 asks for by Redis').
+command(work, '', 'make runs for sim_batch/5 elsewhere, through Redis').
 command(jog, '', 'drive with the arrow keys of the terminal').
 
 %   option(?Option, ?Value, ?Type, ?Commands, ?Text): Type is in words.
@@ -36,7 +38,7 @@ option(world, 'WORLD', 'a world', [run, devices, check, jog],
        'simulate the robot, in a world').
 option(robot, 'ROBOT', 'a robot', [sim, run, devices, check, jog],
        'another simulated robot').
-option(noise, '', flag, [sim, run, jog], 'errors as of real devices').
+option(noise, '', flag, [sim, run, jog], 'errors like those of real devices').
 option(seed, 'N', 'a whole number', [sim, run, jog], 'other random numbers').
 option(clock, 'CLOCK', 'virtual, realtime, or a factor', [sim, run, jog],
        'of simulated time: virtual, realtime, or a factor').

@@ -206,7 +206,7 @@ noted_parts([Part|Parts], [Arg0|Args0], [Layout|Layouts], In, [Arg|Args]) :-
     ),
     noted_parts(Parts, Args0, Layouts, In, Args).
 
-%   Which arguments are goals: `g` is a goal of the clause, `0` one of its
+%   The arguments that are goals: `g` is a goal of the clause, `0` one of its
 %   own, `c` one that cleans up.
 
 parts(Goal, Parts) :-

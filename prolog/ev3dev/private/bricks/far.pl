@@ -166,7 +166,7 @@ receive(Far, Name, Out) :-
 over(Far, Out) :-
     assertz(lost(Far)),
     forall(waiting(Far, _, Queue), give(Queue, lost)),
-    % Who writes to it must not wait for ever.
+    % A writer must not wait for it forever.
     end_process(Far, 20),
     close(Out, [force(true)]).
 

@@ -28,7 +28,7 @@ are the output of the brick's program, in their order among the frames.
 
 %!  protocol(-Version) is det.
 %
-%   Which form of frames this pack speaks.
+%   The version of the frames of this pack.
 
 protocol(1).
 

@@ -23,7 +23,7 @@
 :- use_module(checks, [evaluated/2, must_be/2]).
 :- use_module('../errors/errors', [domain_error/2, throw_error/3]).
 
-/** <module> Options and numbers that the pack's predicates are told
+/** <module> Options and numbers of the pack's predicates
 
 An option that a predicate does not have is an error: it is most likely one
 that is misspelt.
@@ -275,7 +275,7 @@ must_be_within(Lowest, Highest, Domain, Integer) :-
     must_be(integer, Integer),
     (   between(Lowest, Highest, Integer)
     ->  true
-    ;   format(atom(Message), 'an integer from ~d to ~d is expected, not ~d',
+    ;   format(atom(Message), 'the integer must be from ~d to ~d, not ~d',
                [Lowest, Highest, Integer]),
         throw_error(domain_error(Domain, Integer), _, Message)
     ).

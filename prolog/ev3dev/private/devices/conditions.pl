@@ -124,7 +124,7 @@ two_dialects(Condition, Reading, Operator, Number) :-
     atom_concat('a condition is ', Text, Words),
     throw_error(domain_error(sensor_condition, Condition), _, Words).
 
-%   As a program would write it, so that library(ev3dev/journal) can tell.
+%   As a program would write it, for library(ev3dev/journal).
 
 compares(Reading, Port, Operator, Number, Module, (Read, Comparison)) :-
     Read0 =.. [Reading, Port, Value],

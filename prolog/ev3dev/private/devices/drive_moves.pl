@@ -45,7 +45,7 @@ move_turn(Percent, Angle, Options) :-
 
 %!  move(+Percent, +Course, +Options) is semidet.
 %
-%   Make a move with the options of library(ev3dev/drive). Percent tells the
+%   Make a move with the options of library(ev3dev/drive). Percent is the
 %   speed; its sign is in Course, which is
 %
 %     - legs(Legs, Backwards)
@@ -56,7 +56,7 @@ move_turn(Percent, Angle, Options) :-
 %     - cruise(CmPerSecond, DegreesPerSecond)
 %       Without end.
 %
-%   @error as library(ev3dev/drive) tells
+%   @error those of library(ev3dev/drive)
 
 move(Percent, Course, Options) :-
     move_options(Percent, Course, Options, Native),

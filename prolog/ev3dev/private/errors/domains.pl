@@ -55,7 +55,7 @@ finite(Number) :-
 %   What describes the allowed values of domain_error(Domain, _): a list of
 %   all values, or a text.
 
-allowed(acceleration,       'an acceleration in cm/s^2 is from 1 to 1000').
+allowed(acceleration,       'an acceleration must be from 1 to 1000 cm/s^2').
 allowed(battery_key,        [voltage, current, percent, type]).
 allowed(button,             [up, down, left, right, enter, back]).
 allowed(button_event,       [pressed, released]).
@@ -63,23 +63,23 @@ allowed(calibration,        [wheels, axle]).
 allowed(clock,              [realtime, scaled('Factor'), virtual]).
 allowed(color,
         [black, blue, green, yellow, red, white, brown, '#rrggbb']).
-allowed(count,              'a count is a whole number, or From-To').
-allowed(direction,          'a direction is a number from -100 to 100').
-allowed(distinct_ports,     'two different ports are expected').
+allowed(count,              'a count must be a whole number, or From-To').
+allowed(direction,          'a direction must be from -100 to 100').
+allowed(distinct_ports,     'the two ports must be different').
 allowed(drive_option,       [use_gyro, speed, acceleration]).
 allowed(duty_limit,
-        'a share of the voltage from above 0 to 100 percent is expected').
+        'a share of the voltage must be above 0 and at most 100 percent').
 allowed(eopd_range,         [long, short]).
-allowed(finite_number,      'a finite number is expected').
+allowed(finite_number,      'the number must be finite').
 allowed(font,               [tiny, small, medium, large]).
-allowed(frequency,          'a tone has from 100 to 10000 Hz').
+allowed(frequency,          'a tone must have from 100 to 10000 Hz').
 allowed(hull,
         [circle('Radius'), rectangle('Width', 'Length', 'Offset')]).
 allowed(i2c_count,
-        'from 1 to 32 bytes are expected, up to register 254').
-allowed(i2c_sensor,         'a sensor on the I2C bus is expected').
+        'the count must be from 1 to 32 bytes, up to register 254').
+allowed(i2c_sensor,         'the sensor must be on the I2C bus').
 allowed(ir_button,          [ red_up, red_down, blue_up, blue_down, beacon ]).
-allowed(ir_channel,         'a channel is a number from 1 to 4').
+allowed(ir_channel,         'a channel must be a number from 1 to 4').
 allowed(ir_light,           [pulsed, steady]).
 allowed(key,
         [ up, down, left, right, enter, back,
@@ -87,53 +87,55 @@ allowed(key,
 allowed(led_color,
         [ off, on, red, green, blue, amber, orange, yellow, 'Percent',
           levels('Red', 'Green'), levels('Red', 'Green', 'Blue') ]).
-allowed(milliseconds,       'a time in milliseconds is a number from 0 on').
+allowed(milliseconds,       'a time in milliseconds must be 0 or more').
 allowed(motor_move,
         [ move('Port', 'Speed', 'Angle'), to('Port', 'Speed', 'Angle'),
           for('Port', 'Speed', 'Seconds') ]).
-allowed(motor_port,         'a port of motors is one of outA to outD').
+allowed(motor_port,         'a motor port must be one of outA to outD').
 allowed(motor_run,          'run(Port, Speed) is expected').
 allowed(motor_state,        [ running, ramping, holding, overloaded,
                               stalled ]).
 allowed(neighbors,         [4, 8]).
-allowed(nonnegative_number, 'a number from 0 on is expected').
-allowed(note,               'a note is named like c4 or fs5').
+allowed(nonnegative_number, 'the number must be 0 or more').
+allowed(note,               'a note must have a name such as c4 or fs5').
 allowed(note_length,        [whole, half, quarter, eighth, sixteenth]).
 allowed(nxt_force,          [force]).
 allowed(nxt_lamp,           [activate, deactivate]).
 allowed(nxt_motor,          ['A', 'B', 'C', 'D']).
 allowed(nxt_sensor,         ['S1', 'S2', 'S3', 'S4']).
 allowed(on_error,           [throw, continue]).
-allowed(pid,                'a term pid(P, I, D) is expected').
-allowed(pixels,             'a number from -10000 to 10000 is expected').
-allowed(place,              'a place X-Y is expected').
+allowed(pid,                'the constants must be a term pid(P, I, D)').
+allowed(pixels,             'the number must be from -10000 to 10000').
+allowed(place,              'a place must be X-Y').
 allowed(polarity,           [normal, inversed]).
-allowed(port,               'a port is one of in1 to in4 and outA to outD').
-allowed(positive_number,    'a number above 0 is expected').
+allowed(port,
+        'a port must be one of in1 to in4 and outA to outD').
+allowed(positive_number,    'the number must be above 0').
 allowed(roadmap_method,     [visibility, prm, rrt_star]).
 allowed(screen_bits,        [1, 32]).
 allowed(screen_color,       [black, dark_gray, light_gray, white]).
-allowed(seconds,            'a time in seconds is a number from 0 on').
+allowed(seconds,            'a time in seconds must be 0 or more').
 allowed(sensor_condition,
         [ 'Reading(Port) < Number', '=<', '>', '>=', '=:=', '=\\=',
           'touch(Port) = pressed', released, bumped ]).
-allowed(sensor_value_index, 'the index of a value is an integer from 0 to 7').
+allowed(sensor_value_index,
+        'the index of a value must be an integer from 0 to 7').
 allowed(side,               [left, right]).
-allowed(simulator_snapshot, 'what sim_snapshot/1 gave is expected').
-allowed(stopwatch,          'a stopwatch of stopwatch/1 is expected').
+allowed(simulator_snapshot, 'a snapshot must come from sim_snapshot/1').
+allowed(stopwatch,          'a stopwatch must come from stopwatch/1').
 allowed(speed,
-        'a speed from -100 to 100 percent other than 0 is expected').
+        'a speed must be from -100 to 100 percent and must not be 0').
 allowed(speed_ahead,
-        'a speed from above 0 to 100 percent is expected').
+        'a speed must be above 0 and at most 100 percent').
 allowed(stop_action,        [coast, brake, hold]).
-allowed(tempo,              'a tempo, in quarters a minute, is above 0').
+allowed(tempo,              'a tempo, in quarters a minute, must be above 0').
 allowed(text_align,         [left, center, right]).
 allowed(timeout,
-        'a number of seconds from 0 on, or infinite, is expected').
+        'a timeout must be 0 or more seconds, or infinite').
 allowed(tone,
         [ tone('Hertz', 'Milliseconds'), note('Note', 'Length'),
           rest('Length') ]).
-allowed(volume,             'a volume is a number from 0 to 100').
+allowed(volume,             'a volume must be from 0 to 100').
 allowed(echo_option,
         [ half_angle('Degrees'), incidence('Degrees'), miss('Share'),
           spurious('Share') ]).

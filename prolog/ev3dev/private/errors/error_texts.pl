@@ -1,9 +1,10 @@
 :- module(ev3dev_error_texts,
-          [ in_words/2,                 % +Formal, -Text
+          [ in_words/3,                 % +Formal, +Frame, -Text
             not_one_of/3,               % +Term, +Values, -Text
             no_value/3,                 % ?Variable, +Frame, -Text
             shown/2,                    % +Term, -Shown
-            is_word/1                   % +Atom
+            is_word/1,                  % +Atom
+            nth/2                       % +Place, -Nth
           ]).
 :- use_module(domains, [allowed/2]).
 :- use_module('../basics/small_lists', [one_of/2]).
@@ -13,32 +14,33 @@
 What is wrong with a term, and which values are allowed.
 */
 
-%!  in_words(+Formal, -Text) is semidet.
+%!  in_words(+Formal, +Frame, -Text) is semidet.
 %
-%   Text explains the ISO term Formal.
+%   Text explains the ISO term Formal. Of an argument of the call in Frame it
+%   says which one it is.
 
-in_words(type_error(evaluable, Name/0), Text) :-
+in_words(type_error(evaluable, Name/0), Frame, Text) :-
     !,
-    format(atom(Text), 'a number is expected, not ~q', [Name]).
-in_words(type_error(evaluable, Function), Text) :-
+    must_be_words('a number', Name, Frame, Text).
+in_words(type_error(evaluable, Function), _, Text) :-
     !,
     format(atom(Text), 'there is no arithmetic function ~q', [Function]).
-in_words(type_error(Type, Term), Text) :-
+in_words(type_error(Type, Term), Frame, Text) :-
     memberchk(Type, [[], character]),   % of is/2, for a string or a list
     !,
-    in_words(type_error(number, Term), Text).
-in_words(type_error(list, Term), Text) :-
-    callable(Term),
-    Term \= [_|_],
+    must_be_words('a number', Term, Frame, Text).
+in_words(type_error(Type, Term), Frame, Text) :-
     !,
-    shown(Term, Shown),
-    format(atom(Text), 'a list is expected, not ~w. Did you mean [~w]?',
-           [Shown, Shown]).
-in_words(type_error(Type, Term), Text) :-
     kind(Type, Wanted),
-    shown(Term, Shown),
-    format(atom(Text), '~w is expected, not ~w', [Wanted, Shown]).
-in_words(domain_error(Domain, Term), Text) :-
+    must_be_words(Wanted, Term, Frame, Text0),
+    (   Type == list,
+        callable(Term),
+        Term \= [_|_]
+    ->  shown(Term, Shown),
+        format(atom(Text), '~w. Did you mean [~w]?', [Text0, Shown])
+    ;   Text = Text0
+    ).
+in_words(domain_error(Domain, Term), _, Text) :-
     allowed(Domain, What),
     !,
     (   is_list(What)
@@ -46,34 +48,45 @@ in_words(domain_error(Domain, Term), Text) :-
     ;   shown(Term, Shown),
         format(atom(Text), '~w, not ~w', [What, Shown])
     ).
-in_words(domain_error(Domain, Term), Text) :-
+in_words(domain_error(Domain, Term), _, Text) :-
     words_of(Domain, Words),
     shown(Term, Shown),
     format(atom(Text), '~w cannot be a ~w', [Shown, Words]).
-in_words(existence_error(source_sink, File), Text) :-
+in_words(existence_error(source_sink, File), _, Text) :-
     !,
     shown(File, Shown),
     format(atom(Text), 'there is no file ~w, or no folder for it', [Shown]).
-in_words(existence_error(Kind, Name), Text) :-
+in_words(existence_error(Kind, Name), _, Text) :-
     words_of(Kind, Words),
     shown(Name, Shown),
     format(atom(Text), 'there is no ~w ~w', [Words, Shown]).
-in_words(evaluation_error(What), Text) :-
+in_words(evaluation_error(What), _, Text) :-
     words_of(What, Text).
-in_words(representation_error(int64_t), Text) :-
+in_words(representation_error(int64_t), _, Text) :-
     !,
     Text = 'an integer of at most 64 bits is expected'.
-in_words(representation_error(What), Text) :-
+in_words(representation_error(What), _, Text) :-
     words_of(What, Words),
     format(atom(Text), 'beyond the ~w', [Words]).
+
+must_be_words(Wanted, Term, Frame, Text) :-
+    shown(Term, Shown),
+    (   Frame \== none,
+        arguments(Frame, Arguments),
+        place(Arguments, Term, 1, Place)
+    ->  nth(Place, Nth),
+        format(atom(Text), 'the ~w argument must be ~w, not ~w',
+               [Nth, Wanted, Shown])
+    ;   format(atom(Text), '~w is expected, not ~w', [Wanted, Shown])
+    ).
 
 kind(atom, 'an atom or a string') :- !.
 kind(callable, 'a goal') :- !.
 kind(bool, 'true or false') :- !.
 kind(list, 'a list') :- !.
 kind(integer, 'an integer') :- !.
-kind(nonneg, 'an integer from 0 on') :- !.
-kind(positive_integer, 'an integer from 1 on') :- !.
+kind(nonneg, 'an integer of at least 0') :- !.
+kind(positive_integer, 'an integer of at least 1') :- !.
 kind(Type, Text) :-
     words_of(Type, Words),
     format(atom(Text), 'a ~w', [Words]).
@@ -231,6 +244,10 @@ place([Term|Terms], Wanted, Place0, Place) :-
     ;   Place1 is Place0 + 1,
         place(Terms, Wanted, Place1, Place)
     ).
+
+%!  nth(+Place, -Nth) is det.
+%
+%   Nth is the word for a Place: `first` for 1.
 
 nth(Place, Nth) :-
     (   arg(Place, nth(first, second, third, fourth), Nth)

@@ -8,7 +8,7 @@
             error_within/3,             % +Error0, +Where, -Error
             named_called/2              % ?Called0, -Called
           ]).
-:- use_module(error_texts, [in_words/2, no_value/3, not_one_of/3]).
+:- use_module(error_texts, [in_words/3, no_value/3, not_one_of/3]).
 :- use_module(frames, [called_by_program/2, in_pack/3, is_public/2]).
 
 /** <module> Errors that name what was called
@@ -73,7 +73,7 @@ throw_error(Formal, Called0, Message) :-
     ->  Text = Message
     ;   Formal == instantiation_error
     ->  no_value(_, Frame, Text)
-    ;   in_words(Formal, Text)
+    ;   in_words(Formal, Frame, Text)
     ->  true
     ;   true
     ),

@@ -2,7 +2,7 @@
           [ in_words//1                 % +Message
           ]).
 :- use_module('../errors/errors', [named_called/2]).
-:- use_module('../errors/error_texts', [is_word/1]).
+:- use_module('../errors/error_texts', [is_word/1, nth/2]).
 :- use_module('../errors/frames', [in_pack/3, is_of_system/1, is_public/2]).
 :- use_module(unknown_procedures,
               [form_of/2, known_mistake/1, unqualified/2]).
@@ -52,10 +52,9 @@ prolog:message(error(Formal, Context)) -->
       atom(Text),
       is_ours(Called)
     },
-    [ '~q: '-[Called] ],
+    lead(Formal, Called, Text, Said),
     about(Formal),
-    [ '~w'-[Text] ],
-    form(Formal, Called, Text).
+    [ '~w'-[Said] ].
 
 %   What is said of an item of the simulation begins with its verb.
 
@@ -68,27 +67,64 @@ about(Formal) -->
 about(_) -->
     [].
 
-%   The arguments may be in another order than a student believes.
+%   What was called, with the names of its arguments if one of them is to
+%   blame, or may be in another place than a student believes. Said is Text,
+%   in which the argument has its name.
 
-form(Formal, Called, Text) -->
+lead(permission_error(wait, guard, Name), Called, Text, Text) -->
+    !,
+    [ 'the condition of ~p calls ~q: '-[Name, Called] ].
+lead(Formal, Called, Text, Said) -->
     { nonvar(Formal),
-      is_of_order(Formal, Text),
-      Called = _/Arity,
-      Arity > 1,
+      (   nth_argument(Text, Place, Rest)
+      ->  true
+      ;   is_of_order(Formal),
+          Called = _/Arity,
+          Arity > 1
+      ),
       form_of(Called, Form)
     },
     !,
-    [ '; its form is ~w'-[Form] ].
-form(_, _, _) -->
-    [].
+    [ '~w: '-[Form] ],
+    { (   integer(Place),
+          argument_name(Form, Place, Argument)
+      ->  atomic_list_concat([Argument, ' ', Rest], Said)
+      ;   Said = Text
+      ) }.
+lead(_, Called, Text, Text) -->
+    [ '~q: '-[Called] ].
 
-is_of_order(type_error(Type, _), _) :-
+nth_argument(Text, Place, Rest) :-
+    atom_concat('the ', Text1, Text),
+    sub_atom(Text1, Before, _, After, ' argument '),
+    !,
+    sub_atom(Text1, 0, Before, _, Nth),
+    sub_atom(Text1, _, After, 0, Rest),
+    between(1, 8, Place),
+    nth(Place, Nth),
+    !.
+
+argument_name(Form, Place, Argument) :-
+    sub_atom(Form, Before, 1, After, '('),
+    !,
+    Start is Before + 1,
+    Length is After - 1,
+    sub_atom(Form, Start, Length, 1, Listed),
+    atomic_list_concat(Names, ', ', Listed),
+    nth_of(Names, Place, Argument).
+
+nth_of([Name|Names], Place, Found) :-
+    (   Place =:= 1
+    ->  Found = Name
+    ;   Place1 is Place - 1,
+        nth_of(Names, Place1, Found)
+    ).
+
+is_of_order(type_error(Type, _)) :-
     memberchk(Type, [evaluable, number, integer, atom, text, [], character]).
-is_of_order(domain_error(_, Term), _) :-
+is_of_order(domain_error(_, Term)) :-
     atom(Term),
     is_word(Term).
-is_of_order(instantiation_error, Text) :-
-    sub_atom(Text, 0, _, _, 'the ').
 
 %!  in_words(+Message, -Lines, ?Rest) is det.
 %
@@ -154,10 +190,19 @@ running(Ports) :-
 
 prolog:message(ev3dev(still_run([Port]))) -->
     !,
-    [ '~w still runs: stop.'-[Port] ].
+    [ '~w is still running. Type `stop.`'-[Port] ].
 prolog:message(ev3dev(still_run(Ports))) -->
-    { atomic_list_concat(Ports, ', ', Listed) },
-    [ '~w still run: stop.'-[Listed] ].
+    { append_last(Ports, Listed) },
+    [ '~w are still running. Type `stop.`'-[Listed] ].
+
+%   `outA, outB and outC`
+
+append_last([First, Last], Listed) :-
+    !,
+    atomic_list_concat([First, ' and ', Last], Listed).
+append_last([Port|Ports], Listed) :-
+    append_last(Ports, Listed0),
+    atomic_list_concat([Port, ', ', Listed0], Listed).
 
                 /*******************************
                 *        THE EXCEPTION         *

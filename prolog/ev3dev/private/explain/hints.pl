@@ -124,8 +124,8 @@ told(Hints, Cause0) :-
 prolog:message(ev3dev(hint(Text))) -->
     [ '~w'-[Text] ].
 
-%   What has been told is not told again. There are at most 100 causes, so
-%   that a program that runs for days does not fill the memory.
+%   A cause is not reported again. There are at most 100 causes, so that a
+%   program that runs for days does not fill the memory.
 
 is_new(Cause) :-
     (   called_by_program(_, Called)
@@ -159,7 +159,7 @@ key(Cause, Key) :-
 
 %!  tell_again is det.
 %
-%   A query begins, of the toplevel or of a page, which is told anything
+%   A query of the toplevel or of a page begins, to which anything is reported
 %   again.
 
 tell_again :-
@@ -199,7 +199,7 @@ user:message_hook(debug_no_topic(ev3dev), warning, _).
                 *            CAUSES            *
                 *******************************/
 
-%   Which of the motors is to blame.
+%   Cause names the motor that is to blame.
 
 cause(cannot(Runs), Cause) :-
     !,
@@ -264,7 +264,7 @@ impossible(Who, Percent, What, Cause) :-
     ;   Cause = unable(Who, do, What)
     ).
 
-%   In words what a motor or the robot was told.
+%   A command to a motor or the robot, in words.
 
 act(move(_, Percent, Angle), Verb, Words) :-
     !,
@@ -312,7 +312,8 @@ because(unlike(Left, Right), domain_error(robot, Left-Right), Text) :-
                '~w is one motor, and a robot needs two: left and right',
                [Left])
     ;   format(atom(Text),
-               '~w (~w) and ~w (~w) are not two motors of one type',
+               '~w (~w) and ~w (~w) are motors of different types: use two \c
+                of the same',
                [Left, LeftType, Right, RightType])
     ),
     !.
@@ -327,17 +328,17 @@ because(not_cm(Wheel, Axle), domain_error(robot, Wheel-Axle), Text) :-
         Wheel < 20,
         Wheel >= 1
     ->  format(atom(Text),
-               'the wheels, ~w cm, are larger than the axle, ~w cm: the \c
-                form is set_robot(WheelDiameter, AxleLength, Left, Right)',
+               'the wheels, ~w cm, are larger than the axle, ~w cm: \c
+                write set_robot(WheelDiameter, AxleLength, Left, Right)',
                [Wheel, Axle])
     ;   format(atom(Text),
                'these are wheels of ~w cm and an axle of ~w cm: set_robot/4 \c
-                expects cm, as 5.6 and 10.6', [Wheel, Axle])
+                expects cm, such as 5.6 and 10.6', [Wheel, Axle])
     ).
 because(not_milliseconds(Predicate, Time), domain_error(milliseconds, Time),
         Text) :-
     format(atom(Text),
-           'that is ~w ms: ~q expects milliseconds, as 500 for half a second',
+           'that is ~w ms: ~q expects milliseconds, 500 for half a second',
            [Time, Predicate]).
 because(not_seconds(Predicate, Time), domain_error(seconds, Time), Text) :-
     Minutes is round(Time / 60),
@@ -345,12 +346,12 @@ because(not_seconds(Predicate, Time), domain_error(seconds, Time), Text) :-
            [Minutes, Predicate]).
 because(interrupted(Who), permission_error(move, robot, Who), Text) :-
     format(atom(Text),
-           '~w did not arrive: another command, or a stop, came meanwhile',
+           '~w did not arrive: another command or a stop came first',
            [Who]).
 because(nothing_came(Port, What), existence_error(device, Port), Text) :-
     format(atom(Text), 'nothing came of ~w at ~w', [What, Port]).
 because(lacking(What), existence_error(What, brick), Text) :-
-    format(atom(Text), 'there is no ~w; ev3_dev/1 says where it is sought',
+    format(atom(Text), 'there is no ~w; ev3_dev/1 says where it should be',
            [What]).
 because(no_robot, existence_error(robot, any),
         'no robot is set: see set_robot/4').
@@ -378,7 +379,7 @@ instead(Reading, Value, Instead) :-
         functor(Value, Operator, 2),
         memberchk(Operator, [<, >, =<, >=, =:=, =\=])
     ->  format(atom(Instead),
-               ': compare it after the call, as ~w(Port, X), X ~w 20',
+               '. Compare it after the call: ~w(Port, X), X ~w 20',
                [Reading, Operator])
     ;   text(Value, Port),
         one_of([motor, sensor], Class),
@@ -440,7 +441,7 @@ sensor('lego-ev3-us', 'ultrasonic sensor').
 sensor('lego-ev3-gyro', 'gyro').
 sensor('lego-ev3-touch', 'touch sensor').
 sensor('lego-ev3-ir', 'infrared sensor').
-sensor('nxt-analog', 'sensor that is a voltage').
+sensor('nxt-analog', 'analog sensor').
 
 missing(_, Words, Port, Missing) :-
     var(Port),

@@ -130,7 +130,7 @@ prolog:message(error(syntax_error(operator_expected), Where)) -->
       '  use_module(library(ev3dev/~w)).'-[rules]
     ].
 
-%   Those of the same name, else those that may be meant.
+%   The predicates of the same name, else those that may be meant.
 
 instead(Name/Arity, Said, Predicates) :-
     (   ask(signatures, arities(Name, Predicates))

@@ -120,11 +120,11 @@ stepping(x(M, O, _, _, _, Mode), x(M, O, [], none, none, Mode)).
 %!  noted(+Note, +Context) is det.
 %!  recorded_step(+Context, -Number, -Notes) is det.
 %
-%   A step Number begins, during which Watch is called, as effort.pl tells.
-%   Note is interrupt(Condition) if the step is found
-%   within an interrupt whose Condition holds, above(Program) if Program has a
-%   higher priority than what takes the step. Notes are these, the innermost
-%   first. Backtracking undoes what was noted.
+%   A step Number begins, during which Watch is called, see effort.pl. Note is
+%   interrupt(Condition) if the step is found within an interrupt whose
+%   Condition holds, above(Program) if Program has a higher priority than what
+%   takes the step. Notes are these, the innermost first. Backtracking undoes
+%   what was noted.
 
 recording(Number, Watch, x(M, O, _, _, _, Mode),
           x(M, O, [], Record, Effort, Mode)) :-

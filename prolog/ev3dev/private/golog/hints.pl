@@ -14,11 +14,11 @@
 hint(Term, Module, Text) :-
     (   compound(Term),
         compound_name_arity(Term, Name, 0)
-    ->  format(atom(Text), '. Here one writes ~q, without ()', [Name])
+    ->  format(atom(Text), '. Write ~q, without ()', [Name])
     ;   callable(Term),
         functor(Term, Name, Arity),
         written(Name/Arity, Here)
-    ->  format(atom(Text), '. Here one writes ~w', [Here])
+    ->  format(atom(Text), '. Write ~w', [Here])
     ;   other_name(Theirs, Head, Ours),
         current_predicate(Module:Theirs),
         \+ has_clauses(Module, Head)

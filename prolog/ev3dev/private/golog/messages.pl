@@ -30,7 +30,7 @@ words(gave_up(Limit, Far)) -->
     [ 'Golog: ' ],
     reason(gave_up(Limit, Far)).
 words(out_of_time(Far)) -->
-    [ 'Golog: the time was up while a step was looked for; ' ],
+    [ 'Golog: the time was over during a search for a step; ' ],
     far(Far).
 words(ended(Count)) -->
     [ 'Golog: the program ended, ~D entries in the history'-[Count] ].
@@ -40,7 +40,7 @@ words(not_ended(Reason)) -->
 words(failed_action(Action)) -->
     [ 'Golog: the action ~p failed'-[Action] ].
 words(no_exogenous(Action)) -->
-    [ 'Golog: ~p is no exogenous action of the domain; it is dropped'-
+    [ 'Golog: ~p is not an exogenous action of the domain; it is ignored'-
       [Action] ].
 words(dry(Action)) -->
     [ 'Golog: nothing says how to execute ~p'-[Action] ].
@@ -84,7 +84,7 @@ reason(no_step(Program)) -->
 reason(stopped) -->
     [ 'the program was stopped' ].
 reason(timeout) -->
-    [ 'the time is up' ].
+    [ 'the time is over' ].
 reason(limit) -->
     [ 'the limit of steps is reached' ].
 reason(gave_up(Limit, Far)) -->
@@ -118,7 +118,7 @@ hindrance(before(Other, Interrupts), Action) -->
     [ '~p has to wait: ~p comes first'-[Action, Other] ],
     around(Interrupts).
 hindrance(interrupt(Part, Values), Action) -->
-    [ '~p is for an interrupt: '-[Action] ],
+    [ '~p belongs to an interrupt: '-[Action] ],
     false_part(Part, Values).
 hindrance(not_offered, Action) -->
     [ '~p is possible, but the program does not go on with it'-[Action] ].

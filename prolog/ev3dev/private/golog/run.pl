@@ -505,7 +505,7 @@ acted(A, E, S1, State0, R, State, Next) :-
         )
     ).
 
-%   What library(ev3dev/journal) tells about the commands of an action: its
+%   The causes in library(ev3dev/journal) for the commands of an action: its
 %   step, what made it possible, where it stands in the program, and the
 %   interrupts that it belongs to.
 

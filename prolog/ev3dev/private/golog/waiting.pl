@@ -74,7 +74,7 @@ for_causes([Cause|Causes], Goal) :-
 
 %!  followed(+Event) is det.
 %
-%   The history goes on: library(ev3dev/view) is told, if it is there.
+%   The history goes on: library(ev3dev/view) hears of it, if it is there.
 
 followed(Event) :-
     (   current_predicate(ev3dev_causes:begins/1)

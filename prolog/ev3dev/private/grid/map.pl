@@ -163,7 +163,7 @@ turn_default(8, 5).
 
 %!  grid_unknown(+Map0, :Free_1, -Map) is det.
 %
-%   True if Map is like Map0, but only call(Free_1, Cell) tells which of its
+%   True if Map is like Map0, but only call(Free_1, Cell) decides which of its
 %   cells are free.
 
 grid_unknown(map(Bounds, Neighbors, Costs, _, _, Start), Free,

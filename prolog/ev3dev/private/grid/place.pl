@@ -100,7 +100,7 @@ start(Options, Map, Cell, Direction) :-
 
 %!  grid_metric(+Options, -Metric) is det.
 %
-%   Metric, as of grid/2, is what the options of set_grid/1 tell.
+%   Metric, as of grid/2, holds the options of set_grid/1.
 
 grid_metric(Options, metric(Cm, X, Y, Eye, Speed)) :-
     number_option(cell_cm(Cm), positive_number, Options, 20),
@@ -162,7 +162,7 @@ set_state(Cell, Direction) :-
 %!  state_position(?Cell, ?Direction) is semidet.
 %
 %   True if the robot is in Cell and looks in Direction. If a move ended early
-%   it is still in the cell from which it started, as far as one can tell.
+%   it is still in the cell from which it started, as far as one can know.
 
 state_position(Cell, Direction) :-
     brick(Brick),

@@ -22,9 +22,13 @@ why_words(why(Time, Command0, Causes0), What, Ports) -->
       ;   Who = Who0
       )
     },
-    command(Command, Who, Since),
-    [ ' ~w ~2f s'-[Since, Time] ],
+    command(Command, Who, When),
+    { when(When, Since) },
+    [ '~w ~2f s'-[Since, Time] ],
     reasons(Causes).
+
+when(since, ', since').
+when(at, ' at').
 
 %   A variable is written as _.
 
@@ -113,10 +117,10 @@ command(course(Course, Options), _, since) -->
     course(Course, Options).
 command(ended(Reason), robot, since) -->
     !,
-    [ 'the robot rests (~w)'-[Reason] ].
+    [ 'the robot stands still (~w)'-[Reason] ].
 command(ended(Reason), Port, since) -->
     !,
-    [ '~w rests (~w)'-[Port, Reason] ].
+    [ '~w stands still (~w)'-[Port, Reason] ].
 command(Sound, sound, at) -->
     !,
     sound(Sound).
@@ -326,7 +330,7 @@ causes([Cause|Causes]) -->
 
 %!  cause_words(+Cause)// is det.
 %
-%   A cause in words, or what begins, as causes.pl tells its follower.
+%   A cause in words, or what begins, as a follower of causes.pl hears it.
 
 cause_words(Cause0) -->
     { without_names(Cause0, Cause) },
@@ -379,13 +383,45 @@ cause(leg(Part)) -->
     [ 'on the way: ~p'-[Part] ].
 cause(course(Course, Options)) -->
     !,
-    [ 'it '-[] ],
-    course(Course, Options).
+    { phrase(course(Course, Options), Words),
+      infinitives(Words, Verbs)
+    },
+    [ 'move "'-[] ],
+    all_of(Verbs),
+    [ '"'-[] ].
 cause(replay(File)) -->
     !,
     [ 'replay of ~w'-[File] ].
 cause(Cause) -->
     [ '~p'-[Cause] ].
+
+all_of([]) -->
+    [].
+all_of([Part|Parts]) -->
+    [ Part ],
+    all_of(Parts).
+
+%   A course says what the robot does: `goes 20 cm`. A move is `go 20 cm`.
+
+infinitives([], []).
+infinitives([Format-Arguments|Parts0], ['~w'-[Said]|Parts]) :-
+    format(atom(Said0), Format, Arguments),
+    atomic_list_concat(Words0, ' ', Said0),
+    infinitive(Words0, Words),
+    atomic_list_concat(Words, ' ', Said),
+    infinitives(Parts0, Parts).
+
+infinitive([], []).
+infinitive([Verb0|Words0], [Verb|Words]) :-
+    (   verb(Verb0, Verb)
+    ->  true
+    ;   Verb = Verb0
+    ),
+    infinitive(Words0, Words).
+
+verb(goes, go).
+verb(turns, turn).
+verb(runs, run).
 
 %   What library(ev3dev/golog) adds to its history.
 

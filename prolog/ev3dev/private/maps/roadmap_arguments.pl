@@ -13,7 +13,7 @@
 
 /** <module> Arguments of planning and navigation
 
-What library(ev3dev/roadmap) and library(ev3dev/navigation) are told.
+The arguments of library(ev3dev/roadmap) and library(ev3dev/navigation).
 */
 
 %!  roadmap_facts(+Map, -Facts) is det.

@@ -13,7 +13,7 @@
 :- use_module(library(lists),
               [append/3, member/2, numlist/3]).
 
-% Those of library(ev3dev/rules)
+% The operators of library(ev3dev/rules)
 :- op(1160, xfx, ::).
 :- op(1150, xfx, ~>).
 
@@ -99,7 +99,7 @@ exercise_setting(exercise(_, _, Options, _), Setting, Default) :-
 
 %!  exercise_seeds(+Exercise, +Which, -Seeds) is det.
 %
-%   Which are `all` seeds, or the `open` ones.
+%   Seeds are all of them for `all`, those that students may see for `open`.
 
 exercise_seeds(Exercise, all, Seeds) :-
     exercise_setting(Exercise, seeds(Seeds0), 1-10),

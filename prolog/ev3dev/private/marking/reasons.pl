@@ -28,31 +28,30 @@ reason(exit(Status), Output, File, _, Seconds, Reason) :-
     ->  Reason = ''
     ;   first_error(Output, File, Text)
     ->  format(atom(Reason), 'It ended at ~1f s: ~w', [Seconds, Text])
-    ;   format(atom(Reason), 'It ended at ~1f s, with the status ~w.',
+    ;   format(atom(Reason), 'It ended at ~1f s with the exit status ~w.',
                [Seconds, Status])
     ).
 reason(killed(Signal), _, _, _, Seconds, Reason) :-
-    format(atom(Reason), 'It crashed at ~1f s, by the signal ~w.',
+    format(atom(Reason), 'It crashed at ~1f s (signal ~w).',
            [Seconds, Signal]).
 reason(limit(cpu), _, _, limits(Cpu, _), Seconds, Reason) :-
     Used is Cpu + Seconds,
     format(atom(Reason),
-           'Does not end: ~0f s of processor time, at ~1f s of the robot''s.',
+           'Stopped after ~0f s of processor time (robot time ~1f s).',
            [Used, Seconds]).
 reason(limit(sleep), _, _, limits(_, Sleep), Seconds, Reason) :-
     format(atom(Reason),
-           'Does not end: it slept for ~w s, at ~1f s of the robot''s \c
-            time. Only wait/1 and what uses the robot lets that pass, \c
-            not sleep/1.',
+           'Stopped after ~w s of waiting (robot time ~1f s). Only \c
+            wait/1 and devices let that time pass; sleep/1 does not.',
            [Sleep, Seconds]).
 reason(lost, _, _, _, _,
-       'It was not judged, as the machine was too busy: mark it again.').
+       'It was not marked, because the machine was too busy: mark it again.').
 reason(limit(output), _, _, _, Seconds, Reason) :-
-    format(atom(Reason), 'It printed more than 1 MB, until ~1f s.',
+    format(atom(Reason), 'Stopped after 1 MB of output (robot time ~1f s).',
            [Seconds]).
 reason(refused(Why), _, _, _, Seconds, Reason) :-
     format(atom(Reason),
-           'At ~1f s it asked the robot what no program asks: ~w.',
+           'Stopped at ~1f s: no program may ask the robot that: ~w.',
            [Seconds, Why]).
 
 %   A syntax error comes before all that the program may print itself.

@@ -35,7 +35,7 @@ collision_reason(Seed, Text) :-
     ).
 
 %   The simulator numbers the sensors of a robot in the order of its facts. An
-%   ultrasonic sensor shows tenths of a cm, if it is not told another mode.
+%   ultrasonic sensor shows tenths of a cm, unless it has another mode.
 
 seen(Then, File, Text, Time, Shown) :-
     sub_atom(File, Before, 6, _, sensor),

@@ -12,7 +12,7 @@
 
 `make` puts the library into the place where SWI-Prolog expects it,
 `lib/<arch>/ev3dev.so`. A binary pack has a library for each kind of machine
-below `native`. The Prolog flag `arch` does not tell these apart: two of
+below `native`. The Prolog flag `arch` does not distinguish these: two of
 Debian's SWI-Prologs report `armv7l-linux`, one for the EV3 (`armel`, which
 passes floats in integer registers) and one for the Raspberry Pi (`armhf`,
 which passes floats in registers of a floating point unit). Before version 8,

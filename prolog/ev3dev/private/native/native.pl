@@ -216,8 +216,8 @@
 
 All that the foreign library defines, and the only way to it. The modules that
 make predicates of them import them from here. What a native predicate does is
-told at its place below `src/`. It expects arguments of the right types, with
-expressions evaluated. It throws ISO errors, and fails where a device is
+explained at its place below `src/`. It expects arguments of the right types,
+with expressions evaluated. It throws ISO errors, and fails where a device is
 missing.
 */
 

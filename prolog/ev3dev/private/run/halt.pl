@@ -26,8 +26,7 @@ ended without its at_halt/1 goals. Whatever the flag says, the motors stop at
 any other signal that ends the process, and at one that makes it stand, as
 Ctrl-Z does. If the process is killed, another one stops its motors. It begins
 with the first motor that runs, unless the flag `ev3dev_stop_at_kill` is then
-`false`.
-`docs/safety.md` tells all of it.
+`false`. `docs/safety.md` has the details.
 */
 
 stop_at_halt :-

@@ -78,7 +78,7 @@ no_guard :-
     (   nb_current(ev3dev_guard, Name),
         Name \== []
     ->  throw_error(permission_error(wait, guard, Name), _,
-                    'a condition must not wait or move')
+                    'a condition may only look')
     ;   true
     ).
 

@@ -6,7 +6,7 @@
 
 On the virtual clock threads that come at the same moment have their turns in
 the order of what they are about to do. The threads of concurrent/3 take their
-goals in any order, so that their names and ages tell nothing.
+goals in any order, so their names and ages say nothing.
 */
 
 %!  about(-Text) is det.

@@ -15,7 +15,7 @@
                 view_serves_/0 ]).
 :- use_module('../explain/error_messages', [in_words//1]).
 
-/** <module> What the page's log is told
+/** <module> The log of the page
 
 Commands, warnings and errors of the program, what it prints, its marks, rules
 that become active, events that happen and Golog's history.
@@ -197,7 +197,7 @@ texts_of([Cause|Causes], [Text|Texts]) :-
 
 %!  error_text(+Error, -Text) is det.
 %
-%   What a person is told of an error.
+%   An error in words.
 
 error_text(error(Formal, context(_, Message)), Text) :-
     nonvar(Message),

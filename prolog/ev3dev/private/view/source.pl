@@ -23,8 +23,8 @@ in the program changes for it.
     looked/1,                           % Time
     seen/1.                             % Json
 
-%   So often, in seconds, the program is asked; how many of its frames it
-%   looks at; how many clauses a page is told.
+%   The seconds between two looks at the program, and the most frames of a
+%   look and clauses of an answer.
 every(0.1).
 most_frames(200).
 most_clauses(8).

@@ -21,7 +21,7 @@ what it wants to be plotted. A page is sent what has changed.
     watch/3,                            % Number, Name, Column
     renewed/1.                          % Time
 
-%   So often, in seconds, the grid is looked at.
+%   The seconds between two looks at the grid.
 every(0.25).
 
 %!  renew_kept is det.

@@ -88,7 +88,7 @@ pub struct Style {
     pub fill: bool,
 }
 
-/// Which letters.
+/// The letters of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Font {
     /// 5 x 8 pixels.
@@ -140,7 +140,7 @@ pub struct Letters {
     pub color: Shade,
     /// The shade behind them; none leaves what is there.
     pub background: Option<Shade>,
-    /// Which.
+    /// The letters.
     pub font: Font,
     /// How many times as large: 1, 2, ...
     pub scale: u32,
