@@ -267,7 +267,8 @@ tests_of(File, _, Tests) :-
 
 test_file(Name, Test) :-
     member(Folder, [prolog, behavior]),
-    format(atom(Test), "tests/~w/test_~w.pl", [Folder, Name]),
+    member(Part, ['', '_plans', '_online', '_robot']),
+    format(atom(Test), "tests/~w/test_~w~w.pl", [Folder, Name, Part]),
     exists_file(Test).
 
 %   judged(Mutants, Options, Verdicts): each is killed, survived or late.

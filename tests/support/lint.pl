@@ -68,14 +68,18 @@ undocumented(Module, Name/Arity) :-
 %!  without_partner(-File) is nondet.
 %
 %   A public module has a test file of its name, and the other way round: what
-%   is about no single module is in tests/behavior.
+%   is about no single module is in tests/behavior. The tests of golog.pl may
+%   be in several files, such as test_golog.pl and test_golog_robot.pl.
 
 without_partner(File) :-
     named('prolog/ev3dev/*.pl', '', Name, File),
     \+ named('tests/prolog/*.pl', test_, Name, _).
 without_partner(File) :-
     named('tests/prolog/*.pl', test_, Name, File),
-    \+ named('prolog/ev3dev/*.pl', '', Name, _).
+    \+ ( named('prolog/ev3dev/*.pl', '', Module, _),
+         ( Name == Module
+         ; atom_concat(Module, '_', Begin), sub_atom(Name, 0, _, _, Begin)
+         ) ).
 
 named(Pattern, Prefix, Name, File) :-
     expand_file_name(Pattern, Files),
@@ -84,12 +88,10 @@ named(Pattern, Prefix, Name, File) :-
     file_name_extension(Stem, _, Base),
     atom_concat(Prefix, Name, Stem).
 
+source('pack.pl').
 source(File) :-
-    member(Pattern, ['pack.pl', 'prolog/*.pl', 'prolog/*/*.pl',
-                     'prolog/*/*/*.pl', 'prolog/*/*/*/*.pl',
-                     'examples/*.pl', 'app/*.pl']),
-    expand_file_name(Pattern, Files),
-    member(File, Files).
+    member(Folder, [prolog, examples, app]),
+    directory_member(Folder, File, [extensions([pl]), recursive(true)]).
 
 % A line of a page, and the comment in a line of Rust or of a test.
 prose(File, Number, Line) :-
