@@ -195,7 +195,7 @@ make_libxml2() {
     install -m 644 "$work/libxml2.so.2" "$1"
 }
 
-# Of C.UTF-8 only what tells letters. Without it, an argument that is not ASCII
+# Of C.UTF-8 only what recognizes letters. Without it, an argument that is not ASCII
 # keeps SWI-Prolog from starting.
 copy_locale() {
     install -D -m 644 "$extra/usr/lib/locale/C.utf8/LC_CTYPE" \

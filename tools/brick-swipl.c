@@ -74,7 +74,7 @@ int main(int argc, char **argv)
 
     replace("LOCPATH", "BRICK_PROLOG_LOCPATH", file("lib/locale"));
     replace("LC_ALL", "BRICK_PROLOG_LC_ALL", "C.UTF-8");
-    /* That of the system's SWI-Prolog; ours is told by swipl.home. */
+    /* That of the system's SWI-Prolog; ours is found by swipl.home. */
     unsetenv("SWI_HOME_DIR");
 
     args[count++] = "swipl";

@@ -7,7 +7,7 @@
 :- use_module(library(process)).
 :- use_module(library(readutil)).
 
-%   The flags tell the command, not the loader or the program behind it.
+%   The flags name the command, not the loader or the program behind it.
 
 flags :-
     current_prolog_flag(argv, [Folder]),

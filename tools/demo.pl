@@ -1,4 +1,4 @@
-% Lets an example drive in the simulator, tells where it is going, and leaves a
+% Lets an example drive in the simulator, says where it is going, and leaves a
 % picture of its way, demo.svg.
 
 :- asserta(user:file_search_path(library, prolog)).

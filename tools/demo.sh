@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs an example in the simulator, tells where the robot is going, and leaves a
+# Runs an example in the simulator, says where the robot is going, and leaves a
 # picture of its way: demo.svg.
 #
 #   tools/demo.sh [EXAMPLE] [SECONDS]

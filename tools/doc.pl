@@ -272,7 +272,7 @@ libraries([Name|Names], Map) -->
            p(\references(Sorted, Map)) ]),
     libraries(Names, Map).
 
-%   What a library shares with another one of the index is told there.
+%   What a library shares with another one of the index is explained there.
 
 elsewhere(Name, Def) :-
     file_base_name(Def, Base),

@@ -514,7 +514,7 @@ until_tick(Id, Condition, Listener) :-
     ;   true
     ).
 
-%   Waits for ever after a goal that did not wait: what it started goes on.
+%   Waits forever after a goal that did not wait: what it started goes on.
 to_the_end(Goal) :-
     slices_(Slices0),
     goal_of_program(Goal),

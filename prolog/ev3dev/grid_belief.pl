@@ -95,7 +95,7 @@ weighted(Seen, Map, State-P0, State-P) :-
     P is P0 * Likelihood.
 
 %   How likely it is to see Seen where Expected are free. Nothing is
-%   quite impossible, so that one false echo does not mislead for ever.
+%   quite impossible, so that one false echo does not mislead forever.
 likelihood(Seen, Expected, Likelihood) :-
     (   Seen =:= Expected
     ->  Likelihood = 0.9
@@ -249,7 +249,7 @@ shares(Belief, bounds(X1, Y1, X2, Y2), Shares) :-
 %     - policy(:Policy)
 %       What to do next: call(Policy, Free, Done, Belief, Action), where Done
 %       are the actions so far, the last one first. `entropy`, the default:
-%       after which one look more may be expected to tell most, and after 15
+%       after which one more look may be expected to show most, and after 15
 %       actions as `ahead`: ahead while a cell is free there, else a turn to
 %       the side where the way is more probably free.
 %     - tell(:Closure)
@@ -360,7 +360,7 @@ loosened(Speed) :-
 %   The policies: call(Policy, +Free, +Done, +Belief, -Action)
 
 %   It rather turns to the other side than the last time: always to the same,
-%   it might circle for ever.
+%   it might circle forever.
 ahead(Free, Done, belief(Map, Pairs), Action) :-
     (   Free > 0
     ->  Action = move

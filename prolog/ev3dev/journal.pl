@@ -134,7 +134,7 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %   Why is the last command to What, a term `why(Time, Command, Causes)`. What
 %   is
 %
-%     - a port or a light, as `outB`
+%     - a port or a light, such as `outB`
 %     - `robot`
 %       What moves the robot that is set, or its motors.
 %     - `stop`

@@ -150,7 +150,7 @@ sim_jam(Port, Boolean) :-
 %
 %   @error existence_error(attribute, Attribute)
 %   @error domain_error(readable_attribute, Attribute) if Attribute can only
-%          be written, as `command`
+%          be written, such as `command`
 %   @error domain_error(attribute_text, Text) if Text is longer than a page
 
 sim_show(Port, Attribute, Text) :-

@@ -58,7 +58,7 @@ sensible(button, enter).
 sensible(event, pressed).
 sensible(at_once, [timeout(0.01)]).
 
-% These wait for as long as they are told to, by the wall on a mount. Their
+% These wait for as long as an argument says, by the wall on a mount. Their
 % cousins with options are called there, too.
 call_for_seconds(motor_run_timed(port, number, out)).
 call_for_seconds(motor_run_to(port, number, out)).
@@ -366,8 +366,8 @@ ends(Goal, How) :-
 
 ends_badly(Goal, How) :-
     use_tree_again,
-    % A motor that is told nonsense may well be said to be blocked. 97 seconds,
-    % which is what [a] is, take a while in an emulated simulator.
+    % A motor with nonsense as its command may be reported as blocked. 97
+    % seconds, which is what [a] is, take a while in an emulated simulator.
     warnings(catch(call_with_time_limit(
                        300,
                        ( with_output_to(string(_), ignore(user:Goal)),

@@ -5,7 +5,7 @@
 :- use_module(library(process)).
 :- use_module(library(readutil)).
 
-% What the motors were told last, once a program is over.
+% The last commands to the motors, once a program is over.
 
 % Since 9.3 halt/0 unwinds the stack, and does not come back if it is canceled; and
 % thread_exit/1 does not end the main thread.
@@ -85,7 +85,7 @@ test(halt_in_a_thread_while_another_waits_stops_them,
     after_program(Tree, "main :- shows_running,
                                  thread_create(motor_run(outB, 20, 360000), _, []),
                                  wait, halt.
-                         % A plain file has to be told.
+                         % A plain file needs a command.
                          shows_running :- state_file(outB, F),
                                  catch(file_write(F, running),
                                        error(permission_error(_, _, _), _), true).
@@ -336,7 +336,7 @@ signalled(Tree, Signal, Text, Options, B, C) :-
 signalled(Tree, Signal, Text, Options, Status, B, C) :-
     signalled(Tree, Signal, Text, Options, Status, call, B, C).
 
-%   What the motors were told is asked for by When, a closure.
+%   When, a closure, asks for the commands to the motors.
 signalled(Tree, Signal, Text, Options0, Status, When, B, C) :-
     with_tree(Tree, [outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
               ( string_concat(

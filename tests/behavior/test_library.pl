@@ -11,7 +11,7 @@
 
 :- begin_tests(exports).
 
-% Which names these are: docs/predicates.md, compared with them by `make lint`.
+% The names are in docs/predicates.md, compared with them by `make lint`.
 test(library_ev3dev_has_all_of_its_parts, true(Missing-More == []-[])) :-
     findall(P, ( part(Name), public_export(Name, P) ), Expected),
     findall(P, public_export(ev3dev, P), Found),

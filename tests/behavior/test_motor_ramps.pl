@@ -9,7 +9,7 @@
 
 /*  The kernel ignores a move with ramps if it measures the very speed that is set,
     and starts a timed run again that ended before its ramp. No sequence of moves
-    may end in a motor that turns for ever because of that.
+    may end in a motor that turns forever because of that.
 */
 
 % A random sequence of steps with outA, the free motor, by its seed.

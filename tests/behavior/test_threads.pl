@@ -1,4 +1,4 @@
-% Many threads at once: nothing is torn, nobody waits for ever, and on the virtual
+% Many threads at once: nothing is torn, nobody waits forever, and on the virtual
 % clock each run is the same.
 
 :- use_module('../support/cases').

@@ -476,7 +476,7 @@ test(unequal_wheels_and_an_inverted_motor,
                        Move, at(X, Y, H), pose_is_right,
                        drive_option(use_gyro, true) )).
 test(an_axle_that_is_ahead) :-
-    % Turns around the axle, while the point whose pose is told goes around.
+    % Turns around the axle, while the point of pose/3 goes around.
     quiet(true, ( set_robot(5.6, 10.6, outB, outC, [axle_offset(5)]),
                   set_pose(0, -5, 0),
                   turn(30, 90, []),
@@ -508,7 +508,7 @@ test(go_and_turn_without_this_library_know_of_it, true(S == '525'-'-525')) :-
 test(two_metres_straight_with_gyro) :-
     each_seed([S]>>noisy(S, true, ( sim_step(10), go_cm(30, 200), beside(1) ))).
 test(two_metres_straight_with_gyro_at_once_by_exact_encoders) :-
-    % By others the robot cannot tell where it looks within half a degree.
+    % By others the robot does not know its heading within half a degree.
     each_seed([S]>>( biased(S, Noise),
                      robot_of(5.6, 5.6, 10.6, true, Noise, Robot0),
                      exact_encoders(Robot0, Robot),
@@ -548,7 +548,7 @@ test(a_long_turn_of_wheels_that_slip, [forall(a_slip(Slip))]) :-
                             ( sim_step(10), drive_cm(0, 60), sim_step(60),
                               stop, sim_step(1), pose_is_right(1, 3) ))).
 test(ten_places_by_wheels_that_slip, [forall(a_slip(Slip))]) :-
-    % How long a way is no gyro tells: 5 % of what is not more than 141 cm.
+    % No gyro measures a distance: 5 % of at most 141 cm.
     each_seed([S]>>slipping(S, Slip, true, ten_places(8, 3))).
 test(ten_places_and_back_without_noise, [forall(member(Gyro, [true, false]))]) :-
     quiet(Gyro, ten_places_and_back).

@@ -57,7 +57,7 @@ expected(Neighbors, Cells, Goal, Reason) :-
     ).
 
 %   The robot with errors: one motor is 5 % stronger than the other, one wheel
-%   5 % larger, none of which it is told; motors, encoders, sonar and gyro are
+%   5 % larger, none of which it knows; motors, encoders, sonar and gyro are
 %   noisy, and the gyro drifts.
 
 noisy_robot(Seed,
@@ -562,7 +562,7 @@ test(one_that_is_still_there_is_remembered_longer,
              ( go(R1), sim_step(11), go(R2), move_box,
                sim_step(11), obstructed([0,2]), go(R3),
                sim_step(10), \+ obstructed(_) )).
-% In a ring with two boxes the robot would go to and fro for ever, if it forgot
+% In a ring with two boxes the robot would go to and fro forever, if it forgot
 % one box on the way to the other.
 test(to_and_fro_comes_to_an_end, Reason == no_way) :-
     World = [bounds(-15, -15, 95, 95), box(40, 40, 46, 46), box(0, 80, 14, 14),

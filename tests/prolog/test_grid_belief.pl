@@ -130,7 +130,7 @@ lost(Seed, Cell, Direction, Goal) :-
 
 :- meta_predicate lost(+, +, +, 0).
 
-%   The robot has gone on, so it is the simulator that tells where it is.
+%   The robot has gone on, so the simulator says where it is.
 right(state([CX, CY], Direction)) :-
     sim_pose(X, Y, Heading),
     abs(X - 20*CX) < 6,

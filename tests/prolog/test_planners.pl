@@ -555,8 +555,7 @@ test(no_diagonal_past_a_corner, [Moves == [4-3, 8-5]]) :-
                             Count)
             ),
             Moves).
-% The states that grid_changed/3 tells are all, and only those, whose ways
-% may change.
+% The states of grid_changed/3 are all, and only those, whose ways may change.
 test(changed_is_what_changes, [forall(member(N, [4, 8])), Told == Real]) :-
     Cell = [2, 1],
     ways(N, [], Before),

@@ -8,7 +8,7 @@
 :- use_module(library(readutil)).
 :- use_module(library(time)).
 
-%   What the tone generator was told by Goal.
+%   The commands of Goal to the tone generator.
 told(Tree, Goal, Tones) :-
     on_dev(Tree, ( call(Goal), heard(Tree, Tones) )).
 

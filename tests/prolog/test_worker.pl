@@ -65,7 +65,7 @@ drives_over_the_grid(Name) :-
     abs(X-140) < 5,
     abs(Y-140) < 5.
 
-% One that says this, and no more until it is told to end.
+% One that says this, and no more until it must end.
 fake(Text, command(sh, ['-c', Command])) :-
     format(atom(Command), "printf '~s'; grep -q end", [Text]).
 

@@ -24,6 +24,8 @@ main :-
     forall(without_partner(File), complain(no_test_or_no_module(File))),
     forall(( prose(File, Line, Text), banned_in(Text, Word) ),
            complain(line(File, Line, banned(Word)))),
+    forall(( comment(File, Line, Text), unplain(Text, Word) ),
+           complain(line(File, Line, unplain(Word)))),
     forall(untrue(Complaint), complain(Complaint)),
     (   complaint
     ->  halt(1)
@@ -107,6 +109,50 @@ prose(File, Number, Comment) :-
     once(sub_string(Line, Before, _, _, Mark)),
     sub_string(Line, Before, _, 0, Comment).
 
+%!  comment(-File, -Number, -Text) is nondet.
+%
+%   Text is a line of a comment of the pack's own files. If the comment begins
+%   in it, it begins with a caret.
+
+comment(File, Number, Text) :-
+    member(Folder-Extension-Mark,
+           [ prolog-pl-"%", examples-pl-"%", course-pl-"%", app-pl-"%", tests-pl-"%",
+             src-rs-"//", crates-rs-"//" ]),
+    directory_member(Folder, File, [extensions([Extension]), recursive(true)]),
+    read_file_to_string(File, All, []),
+    split_string(All, "\n", "", Lines),
+    nth1(Number, [""|Lines], Before),
+    nth1(Number, Lines, Line),
+    comment_of(Line, Mark, Text0),
+    (   comment_of(Before, Mark, _)
+    ->  Text = Text0
+    ;   string_concat("^", Text0, Text)
+    ).
+
+% What follows the Mark at the beginning of a Line.
+comment_of(Line, Mark, Text) :-
+    split_string(Line, "", " ", [Line1]),
+    string_concat(Mark, Line2, Line1),
+    split_string(Line2, "", "%/! ", [Text]).
+
+%!  unplain(+Text, -Word) is nondet.
+%
+%   True if Text begins a comment as a fragment, or has a Word that the
+%   glossary of CONTRIBUTING.md replaces. A name such as `tell(Closure)` is no
+%   such word.
+
+unplain(Text, Word) :-
+    member(Word, ["Which ", "Which.", "That of ", "Those of ", "At its ",
+                  "Who ", "So much", "So many", "So long", "So often"]),
+    string_concat("^", Word, Start),
+    string_concat(Start, _, Text).
+unplain(Text, Word) :-
+    split_string(Text, " ", ".,:;()", Words),
+    member(Word, ["told", "tell", "tells", "telling"]),
+    memberchk(Word, Words),
+    \+ sub_string(Text, _, _, _, "- tell("),
+    \+ sub_string(Text, _, _, _, "- told(").
+
 bad_line(File, Number, Why) :-
     line_of(File, Number, Line),
     bad(Line, Why).
@@ -178,6 +224,16 @@ self_test :-
              \+ banned_in(Bad, _)
            ),
            complain(not_found(Bad))),
+    forall(( member(Bad, [ "^Which there are.", "^That of the rule",
+                           "which the page is told" ]),
+             \+ unplain(Bad, _)
+           ),
+           complain(not_found(Bad))),
+    forall(( member(Good, [ "Which there are", "- tell(:Closure)",
+                            "^Whose turn it is" ]),
+             unplain(Good, Word)
+           ),
+           complain(found(Word, Good))),
     forall(( member(Good, [ "fails if there is none", "set_grid([neighbors(8)])",
                             "in centimeters", "a_grey_name", "the center" ]),
              banned_in(Good, Word)

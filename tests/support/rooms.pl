@@ -15,7 +15,7 @@
 %!  room(+Number, -Room)
 %
 %   Room is room(Known, Unknown, Start, Goal): 250 by 200 cm with up to five
-%   obstacles that the robot is told of, and up to five that it is not. It
+%   obstacles that the robot knows, and up to five that it does not know. It
 %   stands free at Start, with a heading, and at Goal it could.
 
 room(Number, room([bounds(0, 0, 250, 200)|Known], Unknown, Start, Goal)) :-

@@ -421,7 +421,8 @@ next_number(Class, Number) :-
     Next is Number + 1,
     assertz(numbered(Class, Next)).
 
-% A brick takes the NXT's motors for large ones, until it is told.
+% A brick takes the NXT's motors for large ones, until a program sets their
+% type.
 is_known(Tree, Port, 'lego-nxt-motor') :-
     !,
     told_type(Tree, Port, 'lego-nxt-motor'),
@@ -476,7 +477,7 @@ show_attribute(Port, Attribute, Text) :-
 
 %!  get_attribute(+Port, +Attribute, -Text)
 %
-%   Text is an atom. What can only be written, as `command`, is what was
+%   Text is an atom. What can only be written, such as `command`, is what was
 %   written last.
 
 get_attribute(Port, Attribute, Text) :-
@@ -684,7 +685,7 @@ get_number(Port, Attribute, Number) :-
 
 %!  runs(+Port)
 %
-%   Play a motor that runs as soon as it is told to, and does not get there.
+%   Play a motor that runs at once, and does not get there.
 
 runs(Port) :-
     (   current_tree(plain)
@@ -705,10 +706,10 @@ stops(Port) :-
 
 %!  rests(+Thread, +Port)
 %
-%   Where motors do not move by themselves, the one at Port, which Thread has told
-%   to run and waits for, rests. Thread itself sees to that, between two looks at
-%   it: else it might come before the first, and the motor be taken for one that
-%   does not run at all.
+%   Where motors do not move by themselves, the one at Port, which Thread has
+%   commanded to run and waits for, rests. Thread itself sees to that, between
+%   two looks at it: else it might come before the first, and the motor be
+%   taken for one that does not run at all.
 
 rests(Thread, Port) :-
     (   current_tree(plain)

@@ -91,7 +91,7 @@ class Pack:
 
 
 def result_of(program, stage):
-    """Runs a program: its wrongs, and whether a motor was told to run."""
+    """Runs a program: its wrongs, and whether a motor had to run."""
     run = Run(program, stage)
     run.play()
     return {"program": program, "wrong": run.wrong, "used": run.used,

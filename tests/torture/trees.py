@@ -64,7 +64,7 @@ class Plain:
             (folder / name).write_text(text + "\n")
 
     def running(self):
-        """The ports of the motors that were told to run last."""
+        """The ports of the motors whose last command was to run."""
         return [port for place, (port, _) in MOTORS.items()
                 if first_line(self.root / place / "command").startswith("run")]
 
@@ -129,7 +129,7 @@ class Mount:
         self.server.stdin.flush()
 
     def ask(self, goal):
-        """The server has called the goal, and all that it was told before."""
+        """The server has called the goal, and all that came before."""
         done = self.root.parent / "done"
         self.tell(f"{goal}, open('{done}', write, S), close(S)")
         deadline = time.monotonic() + GUARD_S

@@ -257,6 +257,6 @@ fn closing(data: &[u8]) -> u16 {
 }
 
 pub(crate) fn timespec(time: Duration) -> Timespec {
-    // A time that is too long is for ever.
+    // A time that is too long is forever.
     Timespec::try_from(time).unwrap_or(Timespec { tv_sec: 1 << 30, tv_nsec: 0 })
 }

@@ -16,7 +16,7 @@ pub fn short(address: &str) -> &str {
 }
 
 /// The socket that a port is in: `in1` for the sensor at address 1 of the I2C
-/// bus there, `in1:i2c1`. A sensor on a multiplexer, as `in1:i2c80:mux1`, is in no
+/// bus there, `in1:i2c1`. A sensor on a multiplexer, such as `in1:i2c80:mux1`, is in no
 /// socket.
 #[must_use]
 pub fn socket(port: &str) -> &str {

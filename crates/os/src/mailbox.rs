@@ -185,7 +185,7 @@ impl Mailbox {
     }
 
     /// Looks for a letter of the other side for a short while. If there is none, this side sleeps
-    /// from now on, as the other one will be told.
+    /// from now on, and the other one will know.
     #[must_use]
     pub fn wait(&self, to: Side) -> bool {
         let shy = self.shy.load(Ordering::Relaxed);

@@ -32,7 +32,7 @@
 //!
 //! Who knows whom, from below: [`latch`], `lines` (the motors that run, as text) and `events` (two
 //! bytes for the watchdog) know nobody; `crash`, `handlers`, `survivor`; then `kept` (a motor of
-//! the driver) and `watchdog`, which is told, and looks.
+//! the driver) and `watchdog`, which hears and looks.
 //!
 //! Where there are no signals there is the latch alone.
 #![cfg_attr(unix, expect(unsafe_code, reason = "handlers of signals, and processes, are C's"))]

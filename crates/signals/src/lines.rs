@@ -1,6 +1,6 @@
 //! The motors that the program has started, where they can be stopped without a lock.
 //!
-//! A line of text tells of each: whether it runs, the command that stops it, its file.
+//! A line of text describes each: whether it runs, the command that stops it, its file.
 //!
 //! ```text
 //! 1 stop /sys/class/tacho-motor/motor0/command

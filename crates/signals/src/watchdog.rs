@@ -32,7 +32,7 @@ const JUST: Duration = Duration::from_millis(20);
 
 /// What the asker asks and does, without knowing Prolog.
 pub struct Asked {
-    /// Whether a signal, as `term`, will end the program; the second argument is whether
+    /// Whether a signal, such as `term`, will end the program; the second argument is whether
     /// there is somebody at a terminal. If it will, nothing starts a motor any more when
     /// this returns, and no motor runs.
     pub ends: fn(&'static str, bool) -> bool,
@@ -40,13 +40,13 @@ pub struct Asked {
     pub stop: fn(),
 }
 
-/// Prolog ends the program because of a signal, as `term`: the process ends within
+/// Prolog ends the program because of a signal, such as `term`: the process ends within
 /// [`PATIENCE`].
 pub fn halts(signal: &str) {
     send(HALTS, number(signal));
 }
 
-/// Prolog has begun to halt, or its halt was canceled. Its clean-ups may wait for ever, as for
+/// Prolog has begun to halt, or its halt was canceled. Its clean-ups may wait forever, as for
 /// a stream that another thread reads from: after [`PATIENCE`] no motor starts.
 pub fn is_to_halt(halts: bool) {
     send(IS_TO_HALT, halts.into());

@@ -117,7 +117,7 @@ unknown_head(Head0) :-
 %!  branch(+Directive, +Branches0, -Branches, -Condition) is semidet.
 %
 %   True if Directive is one of conditional compilation. Branches are those
-%   that are open after it, the innermost first: a branch(Taken, Before) tells
+%   that are open after it, the innermost first: a branch(Taken, Before) says
 %   whether 7.2.3 takes it (`true`, `false` or `unknown`), and whether it took
 %   an earlier one. Condition is the goal that 7.2.3 calls, or `true`.
 

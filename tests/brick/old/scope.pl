@@ -228,7 +228,7 @@ elsewhere(Module, Goal) :-
 
 %!  meta_head(+Goal, -Meta) is semidet.
 %
-%   True if Meta tells which arguments of Goal are goals.
+%   True if Meta says which arguments of Goal are goals.
 
 meta_head(Goal, Meta) :-
     indicator(Goal, Name/Arity),

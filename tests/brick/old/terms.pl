@@ -47,7 +47,7 @@ read_one(Stream, Module, Line, Term) :-
     ;   stream_position_data(line_count, Position, Line)
     ).
 
-%   Those of 7.2.3, whatever the running version has.
+%   The operators of 7.2.3, whatever the running version has.
 
 set_operators(Module) :-
     forall(( current_op(Priority, Type, Name),

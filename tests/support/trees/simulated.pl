@@ -27,7 +27,7 @@ within the process on the virtual clock (Kind is `simulator`), or as files
 through FUSE in real time (`mount`).
 */
 
-:- dynamic told/1.                      % Goal: what the simulator was told
+:- dynamic told/1.                      % Goal: a command to the simulator
 
 simulated_start(Kind, Devices, Root) :-
     retractall(told(_)),
@@ -141,8 +141,8 @@ simulated_pause(Seconds) :-
 
 %!  last_written(+RelativeFile, -Text)
 %
-%   What the kernel was told last through a file, as the simulator recorded it:
-%   some files can only be written.
+%   The last command to the kernel through a file, as the simulator recorded
+%   it: some files can only be written.
 
 last_written(File, Text) :-
     sim_trace(Trace),
@@ -171,7 +171,7 @@ all_written(Directory, Attributes) :-
 %!  simulating_program(+Devices, +Text, -Program)
 %
 %   A program that starts the same simulation for itself, as it cannot get at
-%   this one, and tells at its end what was written. It does so twice, as it is
+%   this one, and says at its end what was written. It does so twice, as it is
 %   not said in which order the library's own hook comes: what counts is the
 %   later.
 

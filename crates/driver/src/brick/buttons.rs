@@ -211,7 +211,7 @@ impl Events {
 /// Until an event can be taken from the queue.
 struct UntilTaken<T> {
     events: Arc<Events>,
-    /// `None` to wait for ever.
+    /// `None` to wait forever.
     end: Option<Duration>,
     take: T,
 }

@@ -394,7 +394,7 @@ impl Device {
         self.attribute(attribute).write_at(self.tree(), bytes, offset)
     }
 
-    /// Calls `look` with the text of a short attribute, as `mode` or `state`.
+    /// Calls `look` with the text of a short attribute, such as `mode` or `state`.
     ///
     /// # Errors
     /// [`Error::Malformed`] where the text is not UTF-8, else the kernel's.
@@ -406,7 +406,7 @@ impl Device {
         Ok(look(word))
     }
 
-    /// Whether a short attribute, as `mode`, is that word.
+    /// Whether a short attribute, such as `mode`, is that word.
     ///
     /// # Errors
     /// [`Error::Malformed`] where the text is not UTF-8, else the kernel's.

@@ -131,7 +131,7 @@ fn whole(counts: f64) -> i64 {
 }
 
 /// A speed in whole counts per second. A wheel that is to turn does: with both at 0 a
-/// slow robot would stand before its end for ever.
+/// slow robot would stand before its end forever.
 fn least(speed: f64) -> i64 {
     let rounded = whole(speed);
     if rounded == 0 && speed.abs() > SLOWEST { whole(speed.signum()) } else { rounded }
@@ -221,7 +221,7 @@ impl ActiveMotion {
     }
 
     /// Ends the motion at its goal. The kernel holds a wheel only at the very count:
-    /// one that something keeps from it would be pushed for ever.
+    /// one that something keeps from it would be pushed forever.
     pub(super) fn hold(&self) -> Result<()> {
         // Controllers on I2C go on running while they hold.
         let pushes = |state: &str| has(state, "running") && !has(state, "holding");

@@ -230,7 +230,7 @@ impl Simulation {
     }
 
     /// Whether a call of one in a crowd, which has its turn, begins before anybody else goes on: as
-    /// no time passes, but not for ever. It need not look at all threads, as most calls would.
+    /// no time passes, but not forever. It need not look at all threads, as most calls would.
     fn begins_at_once(&self, baton: &Baton) -> bool {
         let Some(processor) = self.processor.as_ref().filter(|_| baton.is_freely_mine()) else {
             return false;
@@ -315,7 +315,7 @@ impl Simulation {
         if self.takes_no_time() {
             return self.shared.lock();
         }
-        // A thread without a turn, as at the end of the program, waits, but not for ever.
+        // A thread without a turn, as at the end of the program, waits, but not forever.
         if !baton.is_mine() {
             let wish = Wish::Turn(self.machine().now());
             baton.stand(wish, &mut String::new, SLICE);

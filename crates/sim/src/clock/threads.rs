@@ -155,7 +155,7 @@ impl Tasks {
         for task in fs::read_dir(TASKS).into_iter().flatten().flatten() {
             let id = task.file_name().to_str().and_then(|name| name.parse().ok());
             if let Some(id) = id {
-                // Our own threads count as asleep for ever.
+                // Our own threads count as asleep forever.
                 let name = fs::read_to_string(task.path().join("comm")).unwrap_or_default();
                 let is_ours = name.starts_with(OURS);
                 let file = File::open(task.path().join("status")).ok().filter(|_| !is_ours);

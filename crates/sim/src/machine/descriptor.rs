@@ -6,7 +6,7 @@ use crate::machine::{Machine, Written};
 use ev3_os::linux::Errno;
 
 /// An open attribute. It stays with its device: once that is unplugged, reads and writes answer
-/// ENODEV for ever.
+/// ENODEV forever.
 #[derive(Clone, Debug)]
 pub struct Descriptor {
     node: NodeId,

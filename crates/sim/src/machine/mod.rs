@@ -90,7 +90,7 @@ pub struct Machine {
     robots: Arc<Vec<Obstacle>>,
     number: usize,
     panel: Panel,
-    /// Which touch sensors a hand holds down, by port.
+    /// The touch sensors that a hand holds down, by port.
     held: [bool; Port::ALL.len()],
     trace: Trace,
     /// A film of the run, if somebody wants it.

@@ -11,8 +11,8 @@ pub enum Link {
     /// As a voltage on pin 6, sampled every 10 ms; a resistor identifies the type.
     Analog,
     /// As a voltage on pin 1, sampled every 10 ms. Of these the brick recognizes only the light and
-    /// the touch sensor from the others: `recognized`. The others come up as `nxt-analog` until the
-    /// port is told what it has.
+    /// the touch sensor from the others: `recognized`. The others come up as `nxt-analog` until a
+    /// program sets their type.
     NxtAnalog {
         /// Whether the brick knows it when it is plugged in.
         recognized: bool,

@@ -418,7 +418,7 @@ fn a_ramped_move_back_at_the_very_speed_that_is_measured_is_ignored() {
         desk.step(3000);
         if measured == 300 {
             ignored += 1;
-            assert!(!setpoint_changed && desk.state(A) == "running", "runs on for ever");
+            assert!(!setpoint_changed && desk.state(A) == "running", "runs on forever");
             assert!(desk.position(A) > target + 900);
         } else {
             obeyed += 1;

@@ -132,7 +132,7 @@ batch_step(Limits, now(Todos0, Idle0, Busy0, Done0), Now) :-
     ).
 
 %   9.2.9 crashes some time after wait_for_input/3 was left by Ctrl-C or a
-%   signal, so it does not wait. By 0 it would wait for ever in 7.2.3.
+%   signal, so it does not wait. By 0 it would wait forever in 7.2.3.
 
 look_every(0.2).
 

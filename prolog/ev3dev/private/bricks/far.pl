@@ -136,7 +136,7 @@ end_process(Far, Hundredths) :-
     ;   true
     ).
 
-%   In 9.0.4 a timeout of process_wait/3 other than 0 may wait for ever.
+%   In 9.0.4 a timeout of process_wait/3 other than 0 may wait forever.
 
 ended(Process, Hundredths, Status) :-
     catch(process_wait(Process, Status0, [timeout(0)]), error(_, _), true),

@@ -8,7 +8,7 @@
 
 :- meta_predicate receive_frames(+, 3).
 
-/** <module> What a far brick and its program say to each other
+/** <module> The protocol between a far brick and its program
 
 A frame is a line: the character of code 1, a kind, a number, and a term that
 ignores operators. What stands before that character, and lines without it,

@@ -298,8 +298,8 @@ word(Text, Atom) :-
 %!  motor_options(+Options, +Stop, +Stops, +Ramp, -Term) is det.
 %
 %   Term is what native predicates take for the options of a move: motor_run/4
-%   tells what they mean. Stop is the default stop action, Stops are all there
-%   are, Ramp is the longest ramp.
+%   explains them. Stop is the default stop action, Stops are all there are,
+%   Ramp is the longest ramp.
 
 motor_options(Options, Stop, Stops, Ramp,
               options(Action, RampUp, RampDown, Wait, Timeout)) :-

@@ -66,7 +66,7 @@ sensor_named(Sensor, Reading, Port) :-
 %   are replaced, the others are goals.
 %
 %   @error domain_error(sensor_condition, Condition) if it compares two
-%          dialects at once, as `us_dist_cm(in1, D) < 20`, or asks for
+%          dialects at once, such as `us_dist_cm(in1, D) < 20`, or asks for
 %          `bumped`, which takes time
 
 condition_goal(Module:Condition, Module:Goal) :-

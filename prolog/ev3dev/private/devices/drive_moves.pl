@@ -20,7 +20,7 @@
 :- use_module('../run/waits', [waited/1]).
 :- use_module('../native/native', [attribute_/4, drive_/4, motor_gear_/2]).
 
-/** <module> How a move is carried out
+/** <module> Moves of the drive
 
 What the moves of library(ev3dev/robot) and of library(ev3dev/drive) have in
 common.

@@ -9,7 +9,7 @@
 :- use_module('../run/brick', [brick/1]).
 :- use_module('../explain/hints', [fail_because/1]).
 
-/** <module> The robot that is set
+/** <module> The robot of set_robot/4
 */
 
 :- dynamic

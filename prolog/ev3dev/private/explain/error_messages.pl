@@ -8,7 +8,7 @@
               [form_of/2, known_mistake/1, unqualified/2]).
 :- use_module('../native/native', [running_/1]).
 
-/** <module> What a person reads of an error
+/** <module> Error messages
 
 The message of an error of the pack is one line: what was called, and what is
 wrong with it. If nobody catches an error of the pack, or one that passes

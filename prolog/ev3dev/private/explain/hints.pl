@@ -88,7 +88,7 @@ fail_because(Cause0) :-
 %!  advise(+Cause) is det.
 %
 %   Explain what a call that succeeds, or fails for another reason, may have
-%   been meant for. It is told as fail_because/1 tells it, but no error. Cause
+%   been meant for. It is printed as by fail_because/1, but is no error. Cause
 %   is one of those, or one of
 %
 %     - not_cm(Wheel, Axle)

@@ -5,7 +5,7 @@
           ]).
 :- use_module('../errors/frames', [in_pack/3, is_public/2]).
 
-/** <module> A predicate that there is not
+/** <module> Unknown procedures
 
 A query that calls a predicate of a library of the pack that is not loaded
 says which one to load. One that calls a predicate of the pack with another

@@ -31,7 +31,7 @@
 :- use_module('../errors/errors', [throw_error/3]).
 :- use_module('../errors/frames', [goal_of_program/1]).
 
-/** <module> What the interpreter carries along
+/** <module> The context of the interpreter
 
 A context is `x(Module, Options, Calls, Record, Effort, Mode)`. Module holds
 the domain. Options are words of this run: `online`, `assume` (what gexec/2

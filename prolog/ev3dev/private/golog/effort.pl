@@ -10,7 +10,7 @@
             how_far/2                   % +Effort, -Far
           ]).
 
-/** <module> What a search costs, and what ends it
+/** <module> The effort and the limits of a search
 
 An effort counts the steps of a search, and knows its limits:
 

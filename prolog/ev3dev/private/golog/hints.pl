@@ -3,7 +3,7 @@
           ]).
 :- use_module(theory, [has_clauses/2]).
 
-/** <module> Books and other systems write it otherwise
+/** <module> Hints for the notation of books and other systems
 */
 
 %!  hint(+Term, +Module, -Text) is det.

@@ -59,7 +59,7 @@ watch(Watch, Ball, Listener) :-
 %!  for_causes(+Causes, :Goal) is semidet.
 %
 %   Call Goal once. What it commands is done for Causes, the innermost first,
-%   as library(ev3dev/journal) tells. Not wanted if nothing can be commanded.
+%   see library(ev3dev/journal). Not wanted if nothing can be commanded.
 
 causes_wanted(Robot) :-
     (   Robot == robot

@@ -20,7 +20,7 @@
 Which cells it found obstructed, and which it found free, and when. What it
 found may fade: an obstacle that moves about is forgotten after some time.
 Each time that it is still there when the robot comes again, that time
-doubles. So what stands for ever is at last remembered for longer than any way
+doubles. So what stands forever is at last remembered for longer than any way
 takes, and a robot does not go to and fro between two obstacles without end.
 */
 

@@ -15,7 +15,7 @@
 :- use_module('../../odometry', [pose/3, pose_uncertainty/1]).
 :- use_module('../../sensors', [us_dist_cm/2]).
 
-/** <module> A robot that goes from cell to cell
+/** <module> Moves from cell to cell
 
 How it moves on its grid, and how it looks before it does.
 */

@@ -174,9 +174,9 @@ state_position(Cell, Direction) :-
 
 %!  grid(-Map, -Metric) is semidet.
 %
-%   True if Map is that of the grid that was set. Metric is `metric(Cm, X, Y,
-%   Eye, Speed)`: how wide its cells are, where [0,0] is, and what set_grid/1
-%   was told of the robot's sensor and its moves.
+%   True if Map is that of the grid that was set. Metric is
+%   `metric(Cm, X, Y, Eye, Speed)`: how wide its cells are, where [0,0] is,
+%   and what set_grid/1 knows of the robot's sensor and its moves.
 
 grid(Map, Metric) :-
     brick(Brick),

@@ -7,7 +7,7 @@
 :- use_module(help_words, [words_for/2]).
 :- use_module(libraries, [in_library/2]).
 
-/** <module> What a predicate looks like, and which was meant
+/** <module> Signatures of predicates, and which predicate was meant
 
 For messages. Nothing loads this file before one is needed. It reads the
 comments in the files of the libraries.

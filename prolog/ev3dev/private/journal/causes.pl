@@ -51,8 +51,8 @@ follow_no_more :-
 
 %!  begins(+Cause) is det.
 %
-%   A rule becomes active, an event happens, an action of Golog is done: tell
-%   the follower, whether or not the robot is commanded anything.
+%   A rule becomes active, an event happens, an action of Golog is done: the
+%   follower hears of it, also if the robot gets no command.
 
 begins(Cause) :-
     (   follower(Closure)

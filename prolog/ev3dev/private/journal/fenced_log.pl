@@ -5,7 +5,7 @@
 :- use_module(journal_words, [cause_words//1]).
 :- use_module('../native/native', [now_/1]).
 
-/** <module> What a program of sim_fenced/3 says of itself
+/** <module> The log of a program of sim_fenced/3
 
 One line for each rule that becomes active, each event and each action of
 Golog: the time in seconds, a tab, and words.

@@ -9,7 +9,7 @@
             read_index/2                % +File, -Index
           ]).
 
-/** <module> The libraries as ev3dev_compile/0 has compiled them
+/** <module> Compiled libraries
 
 To read its sources takes a brick a second; what was compiled loads in a tenth
 of that. It comes in units of several files: when one of them is to be loaded,

@@ -6,7 +6,7 @@
 :- use_module(library(ordsets),
               [ord_intersection/3, ord_memberchk/2, ord_subtract/3]).
 
-/** <module> Programs that look alike
+/** <module> Similar programs
 
 A hint for the teacher. Clauses are compared whole, whatever the names of
 variables; what most programs have, as from a skeleton, does not count.

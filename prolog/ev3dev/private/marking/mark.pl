@@ -17,7 +17,7 @@
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(utf8), [utf8_codes/3]).
 
-/** <module> Many runs of many programs, and what they are worth
+/** <module> Many runs of many programs, and their points
 
 The runs are those of a batch, whose program is a file with the exercise and
 the texts of all programs in it; so it can go to another machine as it is.

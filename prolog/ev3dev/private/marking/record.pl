@@ -12,7 +12,7 @@
 :- use_module('../files/facts', [located_facts/3]).
 :- use_module(library(lists), [member/2, reverse/2]).
 
-/** <module> What a run was like, as far as scores and reports ask
+/** <module> The record of a run, for scores and reports
 
 The pose is recorded ten times a second; collisions and what the robot said
 are as the simulator knows them at the end. What the sensors showed when it

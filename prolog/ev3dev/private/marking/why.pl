@@ -4,7 +4,7 @@
 :- use_module(record, [run_collision/1, run_fact/1]).
 :- use_module(library(lists), [last/2, member/2, nth0/3]).
 
-/** <module> How a robot came to run into something
+/** <module> Why a robot ran into something
 */
 
 %!  collision_reason(+Seed, -Text) is semidet.

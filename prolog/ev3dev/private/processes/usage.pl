@@ -10,7 +10,7 @@
 
 :- meta_predicate usage_goes_on(+, +, 0, +, -).
 
-/** <module> What a process and its children have used
+/** <module> Processor time and sleep of a process and its children
 
 Seconds in which a process sleeps are counted, and seconds of a processor. So
 no other process can make this one come to its limits: while it waits for a

@@ -2,7 +2,7 @@
           [ about/1                     % -Text
           ]).
 
-/** <module> What a thread is about to do
+/** <module> The order of threads on the virtual clock
 
 On the virtual clock threads that come at the same moment have their turns in
 the order of what they are about to do. The threads of concurrent/3 take their

@@ -6,7 +6,7 @@
           ]).
 :- use_module('../run/brick', [brick/1]).
 
-/** <module> What the simulation of the brick in use began with
+/** <module> The world and the robot with which a simulation began
 
 Only the pages of library(ev3dev/view) ask: for the name of the world, and to
 begin it again.

@@ -15,7 +15,7 @@
 :- use_module(jog, [jog_line/3]).
 :- use_module(program, [program_state/1]).
 
-/** <module> The hands of a page
+/** <module> Controls of a page
 
 What a person may do on a page to the simulated world. Each line is a word and
 plain numbers and names, which are checked here; the simulator checks whether

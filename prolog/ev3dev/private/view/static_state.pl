@@ -11,7 +11,7 @@
 :- use_module('../run/brick', [brick/1, named_brick/3]).
 :- use_module('../simulation/world_name', [world_name/1]).
 
-/** <module> What seldom changes on a page
+/** <module> The part of a page that rarely changes
 
 What the program knows of its grid, the name of the world, the bricks, and
 what it wants to be plotted. A page is sent what has changed.

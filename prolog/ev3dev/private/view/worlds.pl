@@ -17,7 +17,7 @@
 :- use_module(program, [end_program/1, in_main/1]).
 :- use_module(source, [program_directory/1]).
 
-/** <module> The world as a page begins it
+/** <module> Worlds that a page begins
 
 To begin a world is to start the simulation again, in place of the running
 one, after the program was stopped as by STOP. A page names a world or a robot
