@@ -86,32 +86,13 @@ natives! {
     /// Wander, Count, Update, Seed, Search, Table)`.
     semidet fn "localize_new_"(context, facts, options, localizer) {
         let call = Call::of(context, "localize_start", 2);
-        let map = map_of(&call, facts)?;
-        let [hull, sensor, model, wander, count, update, seed, search, table] =
-            call.arguments(options)?;
-        let model = model_of(&call, &model)?;
-        let [way, turn] = call.arguments(&update)?;
-        let options = Options {
-            model,
-            wander: wander_of(&call, &wander)?,
-            sensor: pose_of(&call, &sensor)?,
-            count: count_of(&call, &count)?,
-            update: [call.float(&way)?, call.float(&turn)?],
-            seed: u64::from_ne_bytes(call.integer(&seed)?.to_ne_bytes()),
-            search: search.get_ex()?,
-        };
-        let field = match Field::new(&map, call.float(&hull)?, model.half_angle) {
-            Ok(field) => field,
-            Err(unfit) => return impossible(&call, facts, unfit),
-        };
-        let has_table = if table.is_atom() && &*call.text(&table)? == "auto" {
-            cfg!(all(target_arch = "arm", not(target_feature = "vfp2")))
-        } else {
-            table.get_ex()?
-        };
-        let field = if has_table { field.with_table() } else { field };
-        let localizer_ = Mutex::new(Localizer::new(field, options));
-        localizer.unify(Arc::new(LocalizerBlob { localizer: localizer_ }))
+        let [hull, _, _, _, _, _, _, _, table] = call.arguments(options)?;
+        let options = options_of(&call, options)?;
+        let field = Field::new(&map_of(&call, facts)?, call.float(&hull)?, options.model.half_angle);
+        let field = field.or_else(|unfit| impossible(&call, facts, unfit))?;
+        let field = if has_table(&call, &table)? { field.with_table() } else { field };
+        let made = Mutex::new(Localizer::new(field, options));
+        localizer.unify(Arc::new(LocalizerBlob { localizer: made }))
     }
 
     /// localize_at_(+Localizer, +pose(X, Y, Heading), +Deviation)
@@ -151,9 +132,8 @@ natives! {
         let drive = drive_of(&call, robot, use_gyro)?;
         let believed = call.or_fail(drive.pose())?;
         let odometry = call.or_fail(drive.rolled())?;
-        let Some(best) = with(localizer, |localizer| Ok(localizer.sure(odometry)))? else {
-            return Err(PrologError::Failure);
-        };
+        let best = with(localizer, |localizer| Ok(localizer.sure(odometry)))?;
+        let best = best.ok_or(PrologError::Failure)?;
         let turn = wrapped(best.pose.heading - believed.heading);
         let corrected = Pose { heading: believed.heading + turn, ..best.pose };
         if call.or_throw(drive.correct_pose(corrected))? {
@@ -238,6 +218,32 @@ fn impossible<T, C: QueryableContextType>(
     unfit: Unfit,
 ) -> PrologResult<T> {
     wrong_because(call, "possible_geometry", facts, &unfit.to_string())
+}
+
+/// `options(Hull, Sensor, Model, Wander, Count, Update, Seed, Search, Table)`
+fn options_of<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Options> {
+    let [_, sensor, model, wander, count, update, seed, search, _] = call.arguments(term)?;
+    let [way, turn] = call.arguments(&update)?;
+    Ok(Options {
+        model: model_of(call, &model)?,
+        wander: wander_of(call, &wander)?,
+        sensor: pose_of(call, &sensor)?,
+        count: count_of(call, &count)?,
+        update: [call.float(&way)?, call.float(&turn)?],
+        seed: u64::from_ne_bytes(call.integer(&seed)?.to_ne_bytes()),
+        search: search.get_ex()?,
+    })
+}
+
+/// Whether a localizer is to have a table of distances; `auto` on processors without floats.
+fn has_table<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<bool> {
+    if term.is_atom() && &*call.text(term)? == "auto" {
+        return Ok(cfg!(all(target_arch = "arm", not(target_feature = "vfp2"))));
+    }
+    term.get_ex()
 }
 
 /// `model(HalfAngle, Sigma, SigmaShare, Hit, Short, Missing, Random, Exponent)`

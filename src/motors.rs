@@ -26,14 +26,12 @@ natives! {
         let call = Call::of(context, "motor_run", 2);
         let (name, speed) = (call.text(port)?, speed_of(&call, percent)?);
         let (run, devices) = (Run { port: &name, speed }, call.devices_to_move()?);
-        let interrupted = &mut call.interrupted();
-        if let Some(look) = Look::at(&devices, Class::TachoMotor) {
-            if let Ok(Some(motor)) = devices.find(Class::TachoMotor, &name) {
-                let atoms = [word_in(port), Some(0), Some(0)];
-                look.keep(atoms, &devices, &motor, Text::Borrowed(""), 0);
-            }
+        let (look, interrupted) = (Look::at(&devices, Class::TachoMotor), &mut call.interrupted());
+        let motors = call.or_fail(motor::run_forever(&devices, &[run], interrupted))?;
+        if let (Some(look), [motor]) = (look, &*motors) {
+            look.keep([word_in(port), Some(0), Some(0)], &devices, motor, Text::Borrowed(""), 0);
         }
-        into_prolog_result(call.or_throw(motor::run_forever(&devices, &[run], interrupted))?)
+        Ok(())
     }
 
     /// run_forever_(+Port, +CountsPerSecond)
@@ -42,7 +40,7 @@ natives! {
         let (port, speed) = (call.text(port)?, Speed::CountsPerSecond(call.integer(speed)?));
         let (run, devices) = (Run { port: &port, speed }, call.devices_to_move()?);
         let interrupted = &mut call.interrupted();
-        into_prolog_result(call.or_throw(motor::run_forever(&devices, &[run], interrupted))?)
+        call.or_fail(motor::run_forever(&devices, &[run], interrupted)).map(drop)
     }
 
     /// motors_run_(+Runs): a list of run(Port, Speed), started together.
@@ -56,7 +54,7 @@ natives! {
         let runs = runs.iter().map(|(port, speed)| Run { port, speed: *speed });
         let (runs, devices) = (runs.collect::<Vec<_>>(), call.devices_to_move()?);
         let interrupted = &mut call.interrupted();
-        into_prolog_result(call.or_throw(motor::run_forever(&devices, &runs, interrupted))?)
+        call.or_fail(motor::run_forever(&devices, &runs, interrupted)).map(drop)
     }
 
     /// motor_turn_(+Moves, +Options, -Reason): moves is a list of

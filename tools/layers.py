@@ -10,7 +10,7 @@ in brackets; each line is a layer, its folders or files, and, after an arrow,
 the layers it may import. Every file must be in a layer, and every name of the table must be there. The most specific name
 wins. A layer may always import itself. A section whose folder does not exist
 is an error, and so is a crate without a section, or a folder of private/ that
-no layer names.
+no layer names. A predicate of natives! is short: it converts, calls, and unifies.
 
     [crates/driver/src]
     ground   error.rs class.rs
@@ -299,6 +299,17 @@ def rooms(files):
     return sorted({found.group() for file in files if (found := re.match(r".*private/\w+(?=/)", file))})
 
 
+LONGEST_NATIVE = 15
+
+
+def long_natives(text):
+    """The native predicates with a longer body than that, or a longer part of it."""
+    for name, body in re.findall(r'^    \w+ fn "(\w+)".*\n((?:.*\n)*?)    \}$', text, flags=re.M):
+        parts = re.findall(r"^        (?:setup|call\(\w+\)) => \{\n((?:.*\n)*?)        \}", body, flags=re.M)
+        if max(part.count("\n") for part in parts or [body]) > LONGEST_NATIVE:
+            yield name
+
+
 def check(top, table, listing=False):
     """Prints what it checks; how many errors there are."""
     errors = 0
@@ -324,6 +335,11 @@ def check(top, table, listing=False):
             continue
         rust = [file for file in files if file.endswith(RUST)]
         prolog = [file for file in files if file.endswith(PROLOG)]
+        for file in rust:
+            with open(os.path.join(root, file), encoding="utf-8") as source:
+                for name in long_natives(source.read()):
+                    print(f"layers: {folder}/{file}: the body of {name} has more than {LONGEST_NATIVE} lines")
+                    errors += 1
         arrows = sorted({*RustCrate(root, rust).arrows(), *prolog_arrows(root, prolog)})
         up = 0
         for file in files:
@@ -399,6 +415,7 @@ def self_test():
         ("a circle within a layer", {"src/device/list.rs": "use super::Device;\n"}, 1, "circle of 2: device/list.rs device/mod.rs"),
         ("a file in no layer", {"src/new.rs": ""}, 1, "src/new.rs is in no layer"),
         ("a crate without a section", {"crates/new/Cargo.toml": ""}, 1, "crates/new/src is of a crate that has no section"),
+        ("a long native", {"src/low.rs": 'natives! {\n    semidet fn "p_"(_c) {\n' + 16 * "        x;\n" + "    }\n}\n"}, 1, "src/low.rs: the body of p_ has more than 15 lines"),
         ("a layer without a file", {"src/motor/mod.rs": None}, 1, "src/motor in the table is no file"),
     ]
     failed = 0

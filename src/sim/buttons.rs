@@ -3,8 +3,9 @@ use super::running::simulation;
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
 use ev3_driver::port_name;
-use ev3_sim::{Button, Machine, Port};
+use ev3_sim::{Button, Machine, Port, Simulation};
 use std::sync::Arc;
+use std::time::Duration;
 use swipl::prelude::*;
 
 /// What a hand can press.
@@ -36,6 +37,22 @@ impl Key {
         }
         true
     }
+
+    /// Presses or releases it at a time.
+    fn plan(self, simulation: &Simulation, is_press: bool, at: Duration) {
+        if let Self::Button(button) = self {
+            simulation.machine().plan_button(button, is_press, at);
+            return;
+        }
+        let shared = Arc::downgrade(&simulation.shared());
+        let act = move || {
+            let shared = shared.upgrade()?;
+            self.set(&mut shared.lock(), is_press);
+            shared.wake();
+            None
+        };
+        simulation.repeat(at, Box::new(act));
+    }
 }
 
 natives! {
@@ -54,24 +71,9 @@ natives! {
         let (key, at) = (Key::of(&call, key)?, call.time(after)?);
         let lasts = if lasts.is_atom() { None } else { Some(call.time(lasts)?) };
         let simulation = simulation(context)?;
-        let plan = |is_press, at| match key {
-            Key::Button(button) => {
-                simulation.machine().plan_button(button, is_press, at);
-            }
-            Key::Touch(_) => {
-                let shared = Arc::downgrade(&simulation.shared());
-                let act = move || {
-                    let shared = shared.upgrade()?;
-                    key.set(&mut shared.lock(), is_press);
-                    shared.wake();
-                    None
-                };
-                simulation.repeat(at, Box::new(act));
-            }
-        };
-        plan(true, at);
+        key.plan(&simulation, true, at);
         if let Some(lasts) = lasts {
-            plan(false, at.saturating_add(lasts));
+            key.plan(&simulation, false, at.saturating_add(lasts));
         }
         Ok(())
     }

@@ -131,18 +131,11 @@ natives! {
         let (until, wall) = (call.seconds(until)?.unwrap_or(Duration::MAX), call.time(wall)?);
         let simulation = simulation(context)?;
         let number = brick_number();
-        let Some(mut fence) = locked(&FENCES).remove(&number) else {
-            return Err(PrologError::Failure);
-        };
+        let mut fence = locked(&FENCES).remove(&number).ok_or(PrologError::Failure)?;
         let served = fence.serve(&simulation, [until, wall], call.interrupted());
         locked(&FENCES).insert(number, fence);
         match served {
-            Ok(State::Waiting) => unify_atom(state, "waiting"),
-            Ok(State::Silent) => unify_atom(state, "silent"),
-            Ok(State::Interrupted) => call.or_throw(Err(Error::Interrupted)),
-            Ok(State::Ended) => unify_atom(state, "ended"),
-            Ok(State::Over) => unify_atom(state, "over"),
-            Ok(State::Refused(why)) => state.unify(&term! {context: refused(#why)}?),
+            Ok(served) => unify_state(&call, state, served),
             Err(error) => no_such(&call, "program", "fenced", &error.to_string()),
         }
     }
@@ -184,5 +177,22 @@ natives! {
             Ok(simulation) => use_simulated(&call, Arc::new(simulation), false),
             Err(error) => no_such(&call, "socket", &path, &error.to_string()),
         }
+    }
+}
+
+/// What became of the program behind the fence.
+fn unify_state<C: QueryableContextType>(
+    call: &Call<C>,
+    term: &Term,
+    state: State,
+) -> PrologResult<()> {
+    let context = call.context;
+    match state {
+        State::Waiting => unify_atom(term, "waiting"),
+        State::Silent => unify_atom(term, "silent"),
+        State::Ended => unify_atom(term, "ended"),
+        State::Over => unify_atom(term, "over"),
+        State::Interrupted => call.or_throw(Err(Error::Interrupted)),
+        State::Refused(why) => term.unify(&term! {context: refused(#why)}?),
     }
 }

@@ -32,8 +32,8 @@ use ev3_driver::wait::Slices;
 use ev3_os::locked;
 use ev3_sim::facts::{Fact, Subject, culprit};
 use ev3_sim::{
-    Action, Clock, Depth, Errno, ItemId, Machine, Options, RobotSpec, Simulation, SpecError,
-    WorldSpec,
+    Action, Clock, Depth, Errno, Event, ItemId, Machine, Options, Pose, RobotSpec, Simulation,
+    SpecError, WorldSpec,
 };
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
@@ -95,24 +95,11 @@ natives! {
     semidet fn "sim_crowd_"(context, world, robots, options, fault) {
         let call = Call::of(context, "sim_start", 2);
         let world = facts_of(&call, Subject::World, world)?;
-        let (clock, noise, options) = options_of(&call, options)?;
-        let robots = call.map_list(robots, |term| {
-            let [brick, name, facts] = call.arguments(&term)?;
-            let brick = u32::try_from(call.integer(&brick)?).unwrap_or(u32::MAX);
-            Ok((brick, call.text(&name)?.into_owned(), facts_of(&call, Subject::Robot, &facts)?))
-        })?;
-        let mut machines = Vec::new();
-        for (index, (_, name, facts)) in robots.iter().enumerate() {
-            let seed = options.seed.wrapping_add(index as u64);
-            match built(&world, Some(name), facts, noise, Options { seed, ..options }) {
-                Ok(machine) => machines.push(machine),
-                Err(error) => return unify_fault(&call, fault, Some(index), error),
-            }
-        }
-        let robots: Vec<_> = robots.into_iter().map(|(brick, name, _)| (brick, name)).collect();
-        match start_crowd(&call, &robots, machines, clock)? {
+        let options = options_of(&call, options)?;
+        let robots = call.map_list(robots, |term| self::robot(&call, &term))?;
+        match start_robots(&call, &world, robots, options)? {
             Ok(()) => unify_atom(fault, "none"),
-            Err((_, error)) => unify_fault(&call, fault, None, ("world", culprit(&world, &error), error)),
+            Err((index, error)) => unify_fault(&call, fault, index, error),
         }
     }
 
@@ -331,26 +318,9 @@ natives! {
     /// sim_trace_(-Trace): a list of at(Time, Event).
     semidet fn "sim_trace_"(context, trace) {
         let seen = simulation(context)?.machine().trace().clone();
-        let poses = seen.path().map(|(at, pose)| {
-            let seconds = at.as_secs_f64();
-            let entry = term! {context: at(#seconds, pose(#pose.x, #pose.y, #pose.heading))};
-            Ok((*at, entry?))
-        });
-        let events = seen.events().into_iter().map(|event| {
-            let seconds = event.at.as_secs_f64();
-            let (path, text) = (atomable(event.path.as_str()), atomable(event.text.as_str()));
-            let entry = match event.action {
-                Action::Written => term! {context: at(#seconds, written(#path, #text))},
-                Action::Read => term! {context: at(#seconds, read(#path, #text))},
-                Action::Tone => term! {context: at(#seconds, tone(#event.text.parse::<i64>().unwrap_or(0)))},
-                Action::Said => term! {context: at(#seconds, said(#text))},
-                Action::Played => term! {context: at(#seconds, played(#text))},
-                Action::Silenced => term! {context: at(#seconds, silenced)},
-                Action::Pressed => term! {context: at(#seconds, pressed(#text))},
-                Action::Released => term! {context: at(#seconds, released(#text))},
-            };
-            Ok((event.at, entry?))
-        });
+        let poses = seen.path().map(|(at, pose)| Ok((*at, pose_entry(context, *at, *pose)?)));
+        let events = seen.events().into_iter();
+        let events = events.map(|event| Ok((event.at, event_entry(context, &event)?)));
         let mut entries = poses.chain(events).collect::<PrologResult<Vec<_>>>()?;
         entries.sort_by_key(|(at, _)| *at);
         let entries: Vec<_> = entries.into_iter().map(|(_, entry)| entry).collect();
@@ -373,6 +343,37 @@ natives! {
     /// sim_unmount_
     semidet fn "sim_unmount_"(context) {
         mount::unmount(&Call::of(context, "sim_unmount", 0))
+    }
+}
+
+/// An entry of a trace: where the robot was.
+fn pose_entry<'a, C: QueryableContextType>(
+    context: &'a Context<'a, C>,
+    at: Duration,
+    pose: Pose,
+) -> PrologResult<Term<'a>> {
+    let seconds = at.as_secs_f64();
+    term! {context: at(#seconds, pose(#pose.x, #pose.y, #pose.heading))}
+}
+
+/// An entry of a trace: what happened.
+fn event_entry<'a, C: QueryableContextType>(
+    context: &'a Context<'a, C>,
+    event: &Event,
+) -> PrologResult<Term<'a>> {
+    let seconds = event.at.as_secs_f64();
+    let (path, text) = (atomable(event.path.as_str()), atomable(event.text.as_str()));
+    match event.action {
+        Action::Written => term! {context: at(#seconds, written(#path, #text))},
+        Action::Read => term! {context: at(#seconds, read(#path, #text))},
+        Action::Tone => {
+            term! {context: at(#seconds, tone(#event.text.parse::<i64>().unwrap_or(0)))}
+        }
+        Action::Said => term! {context: at(#seconds, said(#text))},
+        Action::Played => term! {context: at(#seconds, played(#text))},
+        Action::Silenced => term! {context: at(#seconds, silenced)},
+        Action::Pressed => term! {context: at(#seconds, pressed(#text))},
+        Action::Released => term! {context: at(#seconds, released(#text))},
     }
 }
 
@@ -450,6 +451,37 @@ fn options_of<'a, C: QueryableContextType>(
     let seed = u64::from_ne_bytes(call.integer(&seed)?.to_ne_bytes());
     let depth = if call.integer(&screen)? == 1 { Depth::One } else { Depth::ThirtyTwo };
     Ok((clock_of(call, &clock)?, noise.get_ex()?, Options { seed, depth, ..Options::default() }))
+}
+
+/// A robot of several: its brick, its name, its facts.
+type Robot = (u32, String, Vec<Fact>);
+
+/// robot(Brick, Name, RobotFacts)
+fn robot<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Robot> {
+    let [brick, name, facts] = call.arguments(term)?;
+    let brick = u32::try_from(call.integer(&brick)?).unwrap_or(u32::MAX);
+    Ok((brick, call.text(&name)?.into_owned(), facts_of(call, Subject::Robot, &facts)?))
+}
+
+/// Starts several robots in a world; the inner error is that of a robot by its index, or of the
+/// world.
+fn start_robots<C: QueryableContextType>(
+    call: &Call<C>,
+    world: &[Fact],
+    robots: Vec<Robot>,
+    (clock, noise, options): (Clock, bool, Options),
+) -> PrologResult<Result<(), (Option<usize>, Fault)>> {
+    let mut machines = Vec::new();
+    for (index, (_, name, facts)) in robots.iter().enumerate() {
+        let seed = options.seed.wrapping_add(index as u64);
+        match built(world, Some(name), facts, noise, Options { seed, ..options }) {
+            Ok(machine) => machines.push(machine),
+            Err(error) => return Ok(Err((Some(index), error))),
+        }
+    }
+    let robots: Vec<_> = robots.into_iter().map(|(brick, name, _)| (brick, name)).collect();
+    let started = start_crowd(call, &robots, machines, clock)?;
+    Ok(started.map_err(|(_, error)| (None, ("world", culprit(world, &error), error))))
 }
 
 /// fault(Subject, Index, Why); the subject is one of several robots if it has a place among them.

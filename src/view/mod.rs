@@ -98,16 +98,11 @@ natives! {
             let texts: Vec<state::Text> = call.map_list(list, |text| owned(&text))?;
             Ok(Some(texts).filter(|all| !all.is_empty()))
         };
-        let entry = Entry {
-            n: 0,
-            time: Decimal(if time.is_atom() { seconds() } else { call.float(time)? }),
-            kind: owned(kind)?,
-            text: owned(text)?,
-            causes: some(causes)?,
-            about: some(about)?,
-            thread: Some(owned(thread)?).filter(|name: &state::Text| !name.is_empty()),
-        };
-        notes().log(entry);
+        let time = Decimal(if time.is_atom() { seconds() } else { call.float(time)? });
+        let (kind, text, thread) = (owned(kind)?, owned(text)?, owned(thread)?);
+        let thread = Some(thread).filter(|name: &state::Text| !name.is_empty());
+        let (causes, about) = (some(causes)?, some(about)?);
+        notes().log(Entry { n: 0, time, kind, text, causes, about, thread });
         Ok(())
     }
 

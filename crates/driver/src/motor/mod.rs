@@ -157,29 +157,33 @@ pub fn stop_connected(registry: &Registry, interrupted: Interrupted) -> Result<(
     while_permissions_settle(registry, interrupted, stop_rest).and(listed)
 }
 
-/// Runs motors until they are stopped. `false` if one is absent or cannot run
+/// Runs motors until they are stopped: the motors, or `None` if one is absent or cannot run
 /// at its speed; then nothing has moved.
 ///
 /// # Errors
 /// The kernel's. A motor that goes away while the others start stops them.
 /// [`Error::DuplicatePort`]; [`Interrupted`](Error::Interrupted).
-pub fn run_forever(registry: &Registry, runs: &[Run], interrupted: Interrupted) -> Result<bool> {
+pub fn run_forever(
+    registry: &Registry,
+    runs: &[Run],
+    interrupted: Interrupted,
+) -> Result<Option<Vec<Arc<Device>>>> {
     while_permissions_settle(registry, interrupted, || run_forever_once(registry, runs))
 }
 
-fn run_forever_once(registry: &Registry, runs: &[Run]) -> Result<bool> {
+fn run_forever_once(registry: &Registry, runs: &[Run]) -> Result<Option<Vec<Arc<Device>>>> {
     let Some(motors) = find_each(registry, runs.iter().map(|run| run.port))? else {
-        return Ok(false);
+        return Ok(None);
     };
     let speed = |(motor, run): (&Arc<Device>, &Run)| run.speed.in_counts(motor);
     // All of them, before anything is written.
     let possible = motors.iter().zip(runs).map(speed).collect::<Result<Option<Vec<i64>>>>()?;
     let Some(speeds) = possible else {
-        return Ok(false);
+        return Ok(None);
     };
     prepare(&motors)?;
     run_at(&motors, speeds)?;
-    Ok(true)
+    Ok(Some(motors))
 }
 
 /// Runs a motor until it is stopped, as [`run_forever`] does, if nothing has to be waited for.

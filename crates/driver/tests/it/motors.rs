@@ -38,6 +38,7 @@ fn all_motors_get_their_speeds_before_the_first_starts() {
     assert!(
         run_forever(&brick.devices(), &[run("outB", 50.0), run("outC", -50.0)], &mut || false)
             .unwrap()
+            .is_some()
     );
     let expected = [
         "outB speed_sp 525",
@@ -53,11 +54,17 @@ fn motors_that_cannot_all_run_as_asked_are_left_alone() {
     let brick = Brick::new(&["outB", "outC"]);
     let devices = brick.devices();
     for impossible in [run("outA", 50.0), run("outC", 101.0), run("outC", f64::NAN)] {
-        assert!(!run_forever(&devices, &[run("outB", 50.0), impossible], &mut || false).unwrap());
+        assert!(
+            run_forever(&devices, &[run("outB", 50.0), impossible], &mut || false)
+                .unwrap()
+                .is_none()
+        );
     }
     let too_fast = Run { port: "outC", speed: Speed::CountsPerSecond(-1051) };
-    assert!(!run_forever(&devices, &[run("outB", 50.0), too_fast], &mut || false).unwrap());
-    assert!(run_forever(&devices, &[], &mut || false).unwrap());
+    assert!(
+        run_forever(&devices, &[run("outB", 50.0), too_fast], &mut || false).unwrap().is_none()
+    );
+    assert!(run_forever(&devices, &[], &mut || false).unwrap().is_some());
     assert!(brick.take_written().is_empty());
 }
 
@@ -105,7 +112,7 @@ fn a_motor_that_cannot_start_stops_those_that_did() {
     brick.world().motor("outC").refuses.push(("command", Errno::IO));
     let devices = brick.devices();
     let error =
-        run_forever(&devices, &[run("outB", 50.0), run("outC", 50.0)], &mut || false).unwrap_err();
+        run_forever(&devices, &[run("outB", 50.0), run("outC", 50.0)], &mut || false).err().unwrap();
     assert_eq!(error.errno(), Some(Errno::IO));
     assert!(brick.world().motor("outB").is_braking());
 }
@@ -114,10 +121,10 @@ fn a_motor_that_cannot_start_stops_those_that_did() {
 fn a_motor_replugged_since_the_last_look_is_found_under_its_new_number() {
     let brick = Brick::new(&["outA"]);
     let devices = brick.devices();
-    assert!(run_forever(&devices, &[run("outA", 50.0)], &mut || false).unwrap());
+    assert!(run_forever(&devices, &[run("outA", 50.0)], &mut || false).unwrap().is_some());
     brick.world().motor("outA").is_unplugged = true;
     brick.world().plug_motor("outA");
-    assert!(run_forever(&devices, &[run("outA", 25.0)], &mut || false).unwrap());
+    assert!(run_forever(&devices, &[run("outA", 25.0)], &mut || false).unwrap().is_some());
     assert_eq!(brick.world().motor("outA").speed_sp, 262);
     assert!(is_powered(&brick, "outA"));
 }
@@ -276,7 +283,7 @@ fn a_motor_named_twice_is_refused_and_nothing_is_written() {
     let error = run_to(&devices, &moves, &MoveOptions::default(), asked).unwrap_err();
     assert_eq!(error.to_string(), "outA is named twice");
     let runs = [run("outB", 50.0), run("ev3-ports:outB", 20.0)];
-    let error = run_forever(&devices, &runs, asked).unwrap_err();
+    let error = run_forever(&devices, &runs, asked).err().unwrap();
     assert!(matches!(error, Error::DuplicatePort { port } if port == "outB"));
     assert!(brick.take_written().is_empty());
 }
