@@ -2,7 +2,7 @@
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
 use crate::glue::sources::Source;
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Prolog, unify_atom};
 use ev3_driver::brick::buttons::{self as keys, Button, Event, Events};
 use ev3_driver::wait::AnyWait;
 use std::sync::Arc;
@@ -59,7 +59,7 @@ natives! {
 type UntilEvent = AnyWait<'static, Option<Event>>;
 
 /// A slice of that wait.
-fn next_event<C: QueryableContextType>(
+fn next_event<C: Prolog>(
     call: &Call<C>,
     waiting: &mut UntilEvent,
     key: &Term,
@@ -73,7 +73,7 @@ fn next_event<C: QueryableContextType>(
 }
 
 /// The events from now on; fails if the brick has no buttons.
-fn events_from_now<C: QueryableContextType>(call: &Call<C>) -> PrologResult<Events> {
+fn events_from_now<C: Prolog>(call: &Call<C>) -> PrologResult<Events> {
     call.or_throw(Events::from_now(call.dev()?))?.map_or_else(|| call.lacking("buttons"), Ok)
 }
 
@@ -83,7 +83,7 @@ fn unify_event(key: &Term, event: &Term, read: Event) -> PrologResult<()> {
 }
 
 /// A button by its name, or any.
-fn key_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Option<Button>> {
+fn key_of<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<Option<Button>> {
     let Some(word) = call.text_if_bound(term)? else {
         return Ok(None);
     };
@@ -91,7 +91,7 @@ fn key_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<
 }
 
 /// `pressed` or `released`, or any.
-fn is_press_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Option<bool>> {
+fn is_press_of<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<Option<bool>> {
     match call.text_if_bound(term)?.as_deref() {
         None => Ok(None),
         Some("pressed") => Ok(Some(true)),

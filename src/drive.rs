@@ -3,7 +3,7 @@ use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
 use crate::glue::places::places;
 use crate::glue::state;
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Prolog, unify_atom};
 use crate::glue::watch::Frame;
 use crate::motors::stop_action;
 use crate::sim::watched_simulation;
@@ -118,10 +118,7 @@ pub(crate) fn counts_in_world() {
 
 /// `robot(Left, Right, LeftDiameter, RightDiameter, LeftInverted, RightInverted,
 /// Axle, Offset)`
-fn robot_of<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<Robot> {
+fn robot_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Robot> {
     let [left, right, left_diameter, right_diameter, left_inverted, right_inverted, axle, offset] =
         call.arguments(term)?;
     let diameters = [call.float(&left_diameter)?, call.float(&right_diameter)?];
@@ -131,7 +128,7 @@ fn robot_of<'a, C: QueryableContextType>(
 }
 
 /// The drive of a robot, and whether it is to use its gyro.
-pub(crate) fn drive_of<'a, C: QueryableContextType>(
+pub(crate) fn drive_of<'a, C: Prolog>(
     call: &Call<'a, C>,
     robot: &Term<'a>,
     use_gyro: &Term<'a>,
@@ -143,10 +140,7 @@ pub(crate) fn drive_of<'a, C: QueryableContextType>(
 
 /// The drive of a robot in the tree in use. If no tree is chosen yet, asks Prolog to
 /// choose one.
-fn robots_drive<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    robot: &Term<'a>,
-) -> PrologResult<Arc<Drive>> {
+fn robots_drive<'a, C: Prolog>(call: &Call<'a, C>, robot: &Term<'a>) -> PrologResult<Arc<Drive>> {
     call.devices()?;
     let robot = robot_of(call, robot)?;
     if state::known_drive().is_none() {
@@ -157,10 +151,7 @@ fn robots_drive<'a, C: QueryableContextType>(
 
 /// `legs(Legs, Backwards)`, `cruise(CmPerSecond, DegreesPerSecond)`, `change` with
 /// the same, or `wheels(LeftShare, RightShare)`
-fn course_of<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<Command> {
+fn course_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Command> {
     let [first, second] = call.arguments(term)?;
     let name = term.get::<Functor>()?.name_string();
     Ok(match &*name {
@@ -175,7 +166,7 @@ fn course_of<'a, C: QueryableContextType>(
     })
 }
 
-fn leg_of<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Leg> {
+fn leg_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Leg> {
     let Some((name, arguments)) = call.compound(term)? else {
         return wrong_value(call, "leg", term);
     };
@@ -192,7 +183,7 @@ fn leg_of<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> P
     })
 }
 
-fn options_of<'a, C: QueryableContextType>(
+fn options_of<'a, C: Prolog>(
     call: &Call<'a, C>,
     term: &Term<'a>,
 ) -> PrologResult<(DriveOptions, bool, Option<Duration>)> {

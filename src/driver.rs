@@ -3,7 +3,7 @@ use crate::glue::call::{Call, ListedDevices, Text, start};
 use crate::glue::error::wrong_value;
 use crate::glue::interned::{handle, word_in};
 use crate::glue::known::{self, Look};
-use crate::glue::terms::{unify_atom, unify_value};
+use crate::glue::terms::{Prolog, unify_atom, unify_value};
 use ev3_driver::attributes::Short;
 use ev3_driver::class::Detected;
 use ev3_driver::{Class, Device, Registry, attributes};
@@ -105,7 +105,7 @@ pub(crate) struct Bound {
 }
 
 impl Bound {
-    pub(crate) fn of<C: QueryableContextType>(
+    pub(crate) fn of<C: Prolog>(
         call: &Call<C>,
         port: &Term,
         kind: &Term,
@@ -136,7 +136,7 @@ struct AttributeReads {
 }
 
 impl AttributeReads {
-    fn next<'a, C: QueryableContextType>(
+    fn next<'a, C: Prolog>(
         &mut self,
         call: &Call<'a, C>,
         port: &Term<'a>,
@@ -159,7 +159,7 @@ struct Found {
 }
 
 /// The devices of a class, all or the one at a port, of one type or of any.
-fn found<'a, C: QueryableContextType>(
+fn found<'a, C: Prolog>(
     context: &'a Context<'a, C>,
     class: &Term,
     port: &Term,
@@ -235,7 +235,7 @@ fn accessor(class: Class) -> &'static str {
 }
 
 /// The class, as the pack's Prolog files name it.
-pub(crate) fn class_of<'a, C: QueryableContextType>(
+pub(crate) fn class_of<'a, C: Prolog>(
     context: &'a Context<'a, C>,
     term: &Term,
 ) -> PrologResult<Class> {

@@ -1,6 +1,7 @@
 //! `prolog/ev3dev/private/grid/map.pl`: maps of cells that are drawn.
 use crate::facts::drawing;
 use crate::glue::call::Call;
+use crate::glue::terms::Prolog;
 use swipl::prelude::*;
 
 natives! {
@@ -24,10 +25,7 @@ natives! {
     }
 }
 
-fn cell_term<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    at: [usize; 2],
-) -> PrologResult<Term<'a>> {
+fn cell_term<'a, C: Prolog>(call: &Call<'a, C>, at: [usize; 2]) -> PrologResult<Term<'a>> {
     let term = call.context.new_term_ref();
     term.unify(at.map(|count| count as u64).as_slice())?;
     Ok(term)

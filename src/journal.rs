@@ -2,7 +2,7 @@
 use crate::glue::call::Call;
 use crate::glue::places::places_term;
 use crate::glue::state::chosen_devices;
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Prolog, unify_atom};
 use ev3_driver::Registry;
 use ev3_driver::course::{Command, DriveOptions, Leg};
 use ev3_driver::journal::{Act, Course, Entry, LightChange, MotorCommand, Name};
@@ -142,14 +142,14 @@ impl Drop for Cause {
     }
 }
 
-fn number<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<u32> {
+fn number<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<u32> {
     u32::try_from(call.integer(term)?).map_err(|_| PrologError::Failure)
 }
 
 /// Makes the terms of entries.
-struct Maker<'m, 'a, C: QueryableContextType>(&'m Call<'a, C>);
+struct Maker<'m, 'a, C: Prolog>(&'m Call<'a, C>);
 
-impl<'a, C: QueryableContextType> Maker<'_, 'a, C> {
+impl<'a, C: Prolog> Maker<'_, 'a, C> {
     fn compound(&self, name: &str, arguments: &[Term<'a>]) -> PrologResult<Term<'a>> {
         let term = self.0.context.new_term_ref();
         let arity = u16::try_from(arguments.len()).map_err(|_| PrologError::Failure)?;

@@ -2,7 +2,7 @@
 use crate::driver::unify_port;
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Prolog, unify_atom};
 use ev3_driver::brick::light::{self, Color, Light};
 use std::vec::IntoIter;
 use swipl::prelude::*;
@@ -100,10 +100,7 @@ fn unify_integers(term: &Term, name: &str, integers: &[i64]) -> PrologResult<()>
 }
 
 /// A color's name, a percentage, or `levels` of two or three.
-fn color_of<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<Color> {
+fn color_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Color> {
     let percent = |term: &Term| Ok((0..=100).contains(&call.integer(term)?));
     let color = if term.is_integer() {
         percent(term)?.then_some(Color::Level(call.integer(term)?))

@@ -3,7 +3,7 @@ use crate::drive::{counts_in_world, drive_of};
 use crate::glue::call::Call;
 use crate::glue::error::wrong_because;
 use crate::glue::places::place_term;
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Prolog, unify_atom};
 use crate::roadmap::map_of;
 use ev3_localize::{Cluster, Count, Field, Localizer, Mapper, Model, Options, Step, Unfit, Wander};
 use ev3_motion::{Pose, wrapped};
@@ -198,7 +198,7 @@ pub(crate) fn mapping<T>(
 }
 
 /// The three numbers of `pose(X, Y, Heading)` or `sensor(X, Y, Heading)`.
-fn pose_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Pose> {
+fn pose_of<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<Pose> {
     let [x, y, heading] = call.arguments(term)?;
     Ok(Pose { x: call.float(&x)?, y: call.float(&y)?, heading: call.float(&heading)? })
 }
@@ -212,19 +212,12 @@ pub(crate) fn with<T>(
     act(&mut locked(&blob.localizer))
 }
 
-fn impossible<T, C: QueryableContextType>(
-    call: &Call<C>,
-    facts: &Term,
-    unfit: Unfit,
-) -> PrologResult<T> {
+fn impossible<T, C: Prolog>(call: &Call<C>, facts: &Term, unfit: Unfit) -> PrologResult<T> {
     wrong_because(call, "possible_geometry", facts, &unfit.to_string())
 }
 
 /// `options(Hull, Sensor, Model, Wander, Count, Update, Seed, Search, Table)`
-fn options_of<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<Options> {
+fn options_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Options> {
     let [_, sensor, model, wander, count, update, seed, search, _] = call.arguments(term)?;
     let [way, turn] = call.arguments(&update)?;
     Ok(Options {
@@ -239,7 +232,7 @@ fn options_of<'a, C: QueryableContextType>(
 }
 
 /// Whether a localizer is to have a table of distances; `auto` on processors without floats.
-fn has_table<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<bool> {
+fn has_table<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<bool> {
     if term.is_atom() && &*call.text(term)? == "auto" {
         return Ok(cfg!(all(target_arch = "arm", not(target_feature = "vfp2"))));
     }
@@ -247,7 +240,7 @@ fn has_table<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResu
 }
 
 /// `model(HalfAngle, Sigma, SigmaShare, Hit, Short, Missing, Random, Exponent)`
-fn model_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Model> {
+fn model_of<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<Model> {
     let [half_angle, sigma, share, hit, short, missing, random, exponent] = call.arguments(term)?;
     Ok(Model {
         half_angle: call.float(&half_angle)?,
@@ -261,13 +254,13 @@ fn model_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResul
 }
 
 /// `wander(Way, Turn, Drift)`
-fn wander_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Wander> {
+fn wander_of<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<Wander> {
     let [way, turn, drift] = call.arguments(term)?;
     Ok(Wander { way: call.float(&way)?, turn: call.float(&turn)?, drift: call.float(&drift)? })
 }
 
 /// `Least-Most`, or a number
-fn count_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Count> {
+fn count_of<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<Count> {
     let whole =
         |term: &Term| call.integer(term).map(|count| usize::try_from(count).unwrap_or(usize::MAX));
     if term.is_integer() {

@@ -6,7 +6,7 @@ use crate::glue::error::wrong_value;
 use crate::glue::interned::word_in;
 use crate::glue::known::{self, Found, Look};
 use crate::glue::state::chosen_devices;
-use crate::glue::terms::{unify_atom, unify_value};
+use crate::glue::terms::{Prolog, unify_atom, unify_value};
 use crate::glue::waiting;
 use ev3_driver::device::retry;
 use ev3_driver::journal;
@@ -249,7 +249,7 @@ pub(crate) fn known_run(arguments: &Arguments) -> Option<bool> {
 }
 
 /// The next motor's port, and an attribute of it in degrees or millimeters.
-fn next_measured<'a, C: QueryableContextType>(
+fn next_measured<'a, C: Prolog>(
     call: &Call<'a, C>,
     motors: &mut ListedDevices,
     attribute: &str,
@@ -266,10 +266,7 @@ fn next_measured<'a, C: QueryableContextType>(
 }
 
 /// A percentage, or `dps(DegreesPerSecond)`.
-fn speed_of<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<Speed> {
+fn speed_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Speed> {
     if let Some(percent) = attempt_opt(term.get())? {
         return Ok(Speed::Percent(percent));
     }
@@ -280,17 +277,13 @@ fn speed_of<'a, C: QueryableContextType>(
 }
 
 /// Commands by their numbers.
-fn commands_of<C: QueryableContextType>(
-    call: &Call<C>,
-    from: &Term,
-    before: &Term,
-) -> PrologResult<Range<u32>> {
+fn commands_of<C: Prolog>(call: &Call<C>, from: &Term, before: &Term) -> PrologResult<Range<u32>> {
     let number = |term| u32::try_from(call.integer(term)?).map_err(|_| PrologError::Failure);
     Ok(number(from)?..number(before)?)
 }
 
 /// How far a move goes, by the name of its term.
-fn way<C: QueryableContextType>(call: &Call<C>, turn: &Term, way: &Term) -> PrologResult<Extent> {
+fn way<C: Prolog>(call: &Call<C>, turn: &Term, way: &Term) -> PrologResult<Extent> {
     match &*turn.get::<Functor>()?.name_string() {
         "to" => Ok(Extent::To(call.float(way)?)),
         "for" => Ok(Extent::For(call.time(way)?)),
@@ -299,7 +292,7 @@ fn way<C: QueryableContextType>(call: &Call<C>, turn: &Term, way: &Term) -> Prol
     }
 }
 
-pub(crate) fn move_options<'a, C: QueryableContextType>(
+pub(crate) fn move_options<'a, C: Prolog>(
     call: &Call<'a, C>,
     options: &Term<'a>,
 ) -> PrologResult<MoveOptions> {
@@ -316,10 +309,7 @@ pub(crate) fn move_options<'a, C: QueryableContextType>(
 }
 
 /// One of the stop actions.
-pub(crate) fn stop_action<C: QueryableContextType>(
-    call: &Call<C>,
-    term: &Term,
-) -> PrologResult<StopAction> {
+pub(crate) fn stop_action<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<StopAction> {
     match StopAction::named(&call.text(term)?) {
         Some(action) => Ok(action),
         None => wrong_value(call, "stop_action", term),

@@ -1,6 +1,7 @@
 //! `prolog/ev3dev/navigation.pl`: driving through a partly known room.
 use crate::glue::call::Call;
 use crate::glue::places::{place, place_term, places_term};
+use crate::glue::terms::Prolog;
 use crate::roadmap::{map_of, no_way, options_of};
 use ev3_motion::Pose;
 use ev3_roadmap::{Obstacle, Path, Step, View, Views};
@@ -95,10 +96,7 @@ fn views_in(seen: &Arc<SeenSoFar>) -> MutexGuard<'_, Views> {
 }
 
 /// step(Heading, Length, Safe, Unseen, Rest, Way)
-fn step_term<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    step: Step,
-) -> PrologResult<Term<'a>> {
+fn step_term<'a, C: Prolog>(call: &Call<'a, C>, step: Step) -> PrologResult<Term<'a>> {
     let context = call.context;
     let unseen = context.new_term_ref();
     if let Some(at) = step.unseen {

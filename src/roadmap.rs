@@ -3,7 +3,7 @@ use crate::facts;
 use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_value};
 use crate::glue::places::{place, place_term, places, places_term};
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Prolog, unify_atom};
 use ev3_motion::{OUT_OF_RANGE, is_in_range};
 use ev3_roadmap::{
     Fault, Map, Method, NoWay, Obstacle, Options, Path, Segment, Solution, plan, svg,
@@ -34,7 +34,7 @@ natives! {
 }
 
 /// The map, and the path through it.
-fn solve<'a, C: QueryableContextType>(
+fn solve<'a, C: Prolog>(
     call: &Call<'a, C>,
     [facts, start, goal, options]: [&Term<'a>; 4],
 ) -> PrologResult<(Map, Result<Solution, NoWay>)> {
@@ -50,10 +50,7 @@ fn solve<'a, C: QueryableContextType>(
 }
 
 /// `options(Keep, ArcRadius, Method, Samples, Seed)`, checked in Prolog.
-pub(crate) fn options_of<C: QueryableContextType>(
-    call: &Call<C>,
-    term: &Term,
-) -> PrologResult<Options> {
+pub(crate) fn options_of<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<Options> {
     let [keep, arc_radius, method, samples, seed] = call.arguments(term)?;
     Ok(Options {
         keep: call.float(&keep)?,
@@ -71,10 +68,7 @@ pub(crate) fn options_of<C: QueryableContextType>(
 
 /// The map of a list of facts: those of a world, of which only obstacles matter, and
 /// polygons.
-pub(crate) fn map_of<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    facts: &Term<'a>,
-) -> PrologResult<Map> {
+pub(crate) fn map_of<'a, C: Prolog>(call: &Call<'a, C>, facts: &Term<'a>) -> PrologResult<Map> {
     let mut map = Map::default();
     for term in call.list(facts)? {
         let added = if let Some(polygon) = polygon(call, &term)? {
@@ -91,7 +85,7 @@ pub(crate) fn map_of<'a, C: QueryableContextType>(
 }
 
 /// `polygon(Corners)`, which only a roadmap has.
-fn polygon<'a, C: QueryableContextType>(
+fn polygon<'a, C: Prolog>(
     call: &Call<'a, C>,
     term: &Term<'a>,
 ) -> PrologResult<Option<Result<Obstacle, Fault>>> {
@@ -138,21 +132,14 @@ fn obstacle(item: &Item) -> Option<Result<Obstacle, Fault>> {
     }
 }
 
-pub(crate) fn no_way<C: QueryableContextType>(
-    call: &Call<C>,
-    term: &Term,
-    why: NoWay,
-) -> PrologResult<()> {
+pub(crate) fn no_way<C: Prolog>(call: &Call<C>, term: &Term, why: NoWay) -> PrologResult<()> {
     let context = call.context;
     let no_way = term! {context: no_way(#atomable(why.to_string()))}?;
     term.unify(&no_way)
 }
 
 /// way(Length, Points, Legs)
-fn way_term<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    path: &Path,
-) -> PrologResult<Term<'a>> {
+fn way_term<'a, C: Prolog>(call: &Call<'a, C>, path: &Path) -> PrologResult<Term<'a>> {
     let context = call.context;
     let legs = path.segments().iter().map(|leg| leg_term(call, leg));
     let legs = legs.collect::<PrologResult<Vec<_>>>()?;
@@ -164,10 +151,7 @@ fn way_term<'a, C: QueryableContextType>(
 
 /// `line(From, To)` or `arc(From, To, Radius, Angle)`, as `arc_cm/3` takes them: the
 /// radius is positive to the right, and the angle always.
-fn leg_term<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    leg: &Segment,
-) -> PrologResult<Term<'a>> {
+fn leg_term<'a, C: Prolog>(call: &Call<'a, C>, leg: &Segment) -> PrologResult<Term<'a>> {
     let context = call.context;
     let (from, to) = (place_term(call, leg.from())?, place_term(call, leg.to())?);
     let Some(radius) = leg.radius() else {

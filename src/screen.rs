@@ -2,6 +2,7 @@
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
 use crate::glue::state::{devices, with_frame};
+use crate::glue::terms::Prolog;
 use ev3_driver::brick::screen::frame::{Align, Font, Frame, Letters, Shade, Shape, Style};
 use ev3_driver::brick::screen::picture::Picture;
 use ev3_driver::brick::screen::{self, frame, picture};
@@ -65,10 +66,7 @@ natives! {
 
 /// `point(X, Y)`, `line(X1, Y1, X2, Y2)`, `rectangle(X, Y, Width, Height)`,
 /// `circle(X, Y, Radius)` or `arc(X, Y, Radius, Start, Sweep)`.
-fn shape_of<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<Shape> {
+fn shape_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Shape> {
     let arguments = call.context.compound_terms_vec(term)?;
     let name = term.get::<Functor>()?.name_string();
     Ok(match (&*name, &*arguments) {
@@ -86,10 +84,7 @@ fn shape_of<'a, C: QueryableContextType>(
     })
 }
 
-fn letters_of<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<Letters> {
+fn letters_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Letters> {
     let [color, background, font, scale, align] = call.arguments(term)?;
     let background_is_none = &*call.text(&background)? == "none";
     let font_named = Font::named(&call.text(&font)?);
@@ -108,28 +103,25 @@ fn letters_of<'a, C: QueryableContextType>(
     })
 }
 
-fn shade_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Shade> {
+fn shade_of<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<Shade> {
     Shade::named(&call.text(term)?).map_or_else(|| wrong_value(call, "screen_color", term), Ok)
 }
 
 /// Pixels from the upper left corner.
-fn point<C: QueryableContextType>(call: &Call<C>, [x, y]: [&Term; 2]) -> PrologResult<[i32; 2]> {
+fn point<C: Prolog>(call: &Call<C>, [x, y]: [&Term; 2]) -> PrologResult<[i32; 2]> {
     Ok([pixels(call, x)?, pixels(call, y)?])
 }
 
-fn pixels<T: TryFrom<i64>, C: QueryableContextType>(
-    call: &Call<C>,
-    term: &Term,
-) -> PrologResult<T> {
+fn pixels<T: TryFrom<i64>, C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<T> {
     T::try_from(call.integer(term)?).or_else(|_| wrong_value(call, "pixels", term))
 }
 
-fn size<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<u32> {
+fn size<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<u32> {
     pixels(call, term)
 }
 
 /// Degrees. `f32` has enough digits for drawing.
 #[expect(clippy::cast_possible_truncation, reason = "a circle has few pixels")]
-fn angle<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<f32> {
+fn angle<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<f32> {
     Ok(call.float(term)? as f32)
 }

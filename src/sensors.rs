@@ -5,7 +5,7 @@ use crate::glue::error::{wrong_type, wrong_value};
 use crate::glue::interned::{handle, word_in};
 use crate::glue::known::{self, Found, Look};
 use crate::glue::state::watched;
-use crate::glue::terms::{Ask as _, unify_atom, unify_value};
+use crate::glue::terms::{Ask as _, Prolog, unify_atom, unify_value};
 use crate::glue::waiting::is_serving;
 use ev3_driver::sensor::registers;
 use ev3_driver::sensor::wait::{Until, UntilShown, until_shown};
@@ -155,7 +155,7 @@ natives! {
 }
 
 /// An integer from 0 to 255.
-fn byte<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<u8> {
+fn byte<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<u8> {
     match u8::try_from(call.integer(term)?) {
         Ok(byte) => Ok(byte),
         Err(_) => wrong_value(call, "byte", term),
@@ -175,7 +175,7 @@ struct Row {
 static ROWS: Mutex<Vec<(Atom, Arc<Row>)>> = Mutex::new(Vec::new());
 
 /// The row that is asked for: by its name, or by its columns.
-fn row<'a, C: QueryableContextType>(
+fn row<'a, C: Prolog>(
     call: &Call<'a, C>,
     types: &Term<'a>,
     mode: &Term<'a>,
@@ -189,10 +189,7 @@ fn row<'a, C: QueryableContextType>(
     Ok(Arc::new(Row { types, mode: call.text(mode)?, index }))
 }
 
-fn named_row<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    name: &Term<'a>,
-) -> PrologResult<Arc<Row>> {
+fn named_row<'a, C: Prolog>(call: &Call<'a, C>, name: &Term<'a>) -> PrologResult<Arc<Row>> {
     let atom: Atom = name.get()?;
     if let Some((_, row)) = locked(&ROWS).iter().find(|known| known.0 == atom) {
         return Ok(Arc::clone(row));
@@ -204,10 +201,7 @@ fn named_row<'a, C: QueryableContextType>(
 }
 
 /// The columns of the row of that name: types, mode and index.
-fn row_called<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    name: &Term<'a>,
-) -> PrologResult<[Term<'a>; 3]> {
+fn row_called<'a, C: Prolog>(call: &Call<'a, C>, name: &Term<'a>) -> PrologResult<[Term<'a>; 3]> {
     let row @ [types, mode, index] = &call.context.new_term_refs();
     let is_row = call.context.ask(pred!("ev3dev_sensors:known/4"), [name, types, mode, index]);
     if !attempt(is_row)? {
@@ -228,7 +222,7 @@ struct Readings {
 
 impl Readings {
     /// The next value that unifies.
-    fn next_value<'a, C: QueryableContextType>(
+    fn next_value<'a, C: Prolog>(
         &mut self,
         call: &Call<'a, C>,
         port: &Term<'a>,
@@ -251,7 +245,7 @@ impl Readings {
     }
 
     /// The same, but explains it if no sensor has a value.
-    fn next_or_why<'a, C: QueryableContextType>(
+    fn next_or_why<'a, C: Prolog>(
         &mut self,
         call: &Call<'a, C>,
         [port, types, mode]: [&Term<'a>; 3],
@@ -280,7 +274,7 @@ pub(crate) fn known_value(arguments: &Arguments) -> Option<bool> {
 }
 
 /// The condition to wait for.
-fn until<'a, C: QueryableContextType>(call: &Call<'a, C>, test: &Term<'a>) -> PrologResult<Until> {
+fn until<'a, C: Prolog>(call: &Call<'a, C>, test: &Term<'a>) -> PrologResult<Until> {
     let Some([operator, number]) = attempt_opt(call.context.compound_terms::<2>(test))? else {
         return Ok(Until::Bumped);
     };
@@ -298,7 +292,7 @@ fn until<'a, C: QueryableContextType>(call: &Call<'a, C>, test: &Term<'a>) -> Pr
 
 /// The sensors of a call: at a port, or all; of the types, or, if there are none,
 /// all sensors that have the mode.
-fn readings<'a, C: QueryableContextType>(
+fn readings<'a, C: Prolog>(
     call: &Call<'a, C>,
     port: &Term<'a>,
     types: &Term<'a>,
@@ -320,7 +314,7 @@ fn readings<'a, C: QueryableContextType>(
 }
 
 /// Fails because no sensor is of one of the types; or, if there are none, has the mode.
-fn no_sensor<'a, C: QueryableContextType, T>(
+fn no_sensor<'a, C: Prolog, T>(
     call: &Call<'a, C>,
     port: &Term<'a>,
     types: &Term<'a>,
@@ -336,7 +330,7 @@ fn no_sensor<'a, C: QueryableContextType, T>(
 }
 
 /// The number of a value: sensors have `value0` to `value7`.
-fn index_of<C: QueryableContextType>(call: &Call<C>, index: &Term) -> PrologResult<usize> {
+fn index_of<C: Prolog>(call: &Call<C>, index: &Term) -> PrologResult<usize> {
     match usize::try_from(call.integer(index)?) {
         Ok(number) if number < 8 => Ok(number),
         _ => wrong_value(call, "sensor_value_index", index),

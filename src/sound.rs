@@ -1,7 +1,7 @@
 //! `prolog/ev3dev/sound.pl`: the loudspeaker.
 use crate::glue::call::Call;
 use crate::glue::state::{dev, devices, sound};
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Prolog, unify_atom};
 use ev3_driver::brick::sound::{self, Tone};
 use ev3_driver::journal::SoundCommand;
 use ev3_driver::wait::AnyWait;
@@ -116,7 +116,7 @@ natives! {
 type UntilSilent = Option<AnyWait<'static, ()>>;
 
 /// A slice of that wait.
-fn play_on<C: QueryableContextType>(
+fn play_on<C: Prolog>(
     call: &Call<C>,
     sound: &mut UntilSilent,
     reason: &Term,
@@ -127,7 +127,7 @@ fn play_on<C: QueryableContextType>(
     }
 }
 
-fn tone_of<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Tone> {
+fn tone_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Tone> {
     let [hertz, milliseconds] = call.arguments(term)?;
     let hertz = u32::try_from(call.integer(&hertz)?).map_err(|_| PrologError::Failure)?;
     let lasts = call.seconds(&milliseconds)?.unwrap_or(Duration::MAX) / 1000;

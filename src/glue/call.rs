@@ -4,7 +4,7 @@ use crate::glue::error::{Origin, raise};
 use crate::glue::interned::atom_text;
 use crate::glue::signals;
 use crate::glue::state;
-use crate::glue::terms::{Ask as _, unify_value};
+use crate::glue::terms::{Ask as _, Prolog, unify_value};
 use crate::glue::watch;
 use ev3_driver::error::Access;
 use ev3_driver::journal::{self, Act, SoundCommand};
@@ -82,9 +82,9 @@ pub(crate) fn has_prepared_motors() -> bool {
 }
 
 /// A call of a public predicate: the origin of errors, and access to the devices.
-pub(crate) struct Call<'a, C: QueryableContextType>(Origin<'a, C>);
+pub(crate) struct Call<'a, C: Prolog>(Origin<'a, C>);
 
-impl<'a, C: QueryableContextType> Deref for Call<'a, C> {
+impl<'a, C: Prolog> Deref for Call<'a, C> {
     type Target = Origin<'a, C>;
 
     fn deref(&self) -> &Self::Target {
@@ -92,7 +92,7 @@ impl<'a, C: QueryableContextType> Deref for Call<'a, C> {
     }
 }
 
-impl<'a, C: QueryableContextType> Call<'a, C> {
+impl<'a, C: Prolog> Call<'a, C> {
     pub(crate) fn of(context: &'a Context<'a, C>, name: &'static str, arity: u64) -> Self {
         Self(Origin { context, name, arity })
     }
@@ -428,7 +428,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 }
 
 /// Runs the goals that this thread has planned and that are due.
-fn run_due_goals<'a, C: QueryableContextType>(context: &'a Context<'a, C>) -> PrologResult<()> {
+fn run_due_goals<'a, C: Prolog>(context: &'a Context<'a, C>) -> PrologResult<()> {
     if has_rung() {
         context.ask(pred!("ev3dev_schedule:run_due_goals/0"), [])?;
     }

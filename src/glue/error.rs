@@ -16,7 +16,7 @@
 //! | anything else | `system_error(Words)` |
 //!
 //! Access is `read` or `write`.
-use crate::glue::terms::{Ask as _, unify_atom, unify_value};
+use crate::glue::terms::{Ask as _, Prolog, unify_atom, unify_value};
 use ev3_driver::device::read_value;
 use ev3_driver::error::{Access, Error};
 use ev3_driver::{Class, Errno, Registry, Value};
@@ -28,14 +28,14 @@ use std::time::Duration;
 use swipl::prelude::*;
 
 /// The origin of errors: the public predicate that was called, by name and arity.
-pub(crate) struct Origin<'a, C: QueryableContextType> {
+pub(crate) struct Origin<'a, C: Prolog> {
     pub(crate) context: &'a Context<'a, C>,
     pub(crate) name: &'static str,
     pub(crate) arity: u64,
 }
 
 /// Raises a driver's error. Its message lists the devices if one of them is missing.
-pub(crate) fn raise<T, C: QueryableContextType>(
+pub(crate) fn raise<T, C: Prolog>(
     call: &Origin<C>,
     error: &Error,
     devices: &Registry,
@@ -53,7 +53,7 @@ pub(crate) fn raise<T, C: QueryableContextType>(
 
 /// Where no motor may start because the program ends, so does this call: by the signal that
 /// Prolog is about to get, or as Prolog ends this thread, or, in a clean-up, by an abort.
-fn end_of_program<C: QueryableContextType>(call: &Origin<C>) -> PrologResult<()> {
+fn end_of_program<C: Prolog>(call: &Origin<C>) -> PrologResult<()> {
     /// Prolog ends its threads sooner than that.
     const MOST: Duration = Duration::from_millis(100);
     let since = Instant::now();
@@ -71,7 +71,7 @@ fn end_of_program<C: QueryableContextType>(call: &Origin<C>) -> PrologResult<()>
 ///
 /// A nondeterministic predicate must not throw when it is called again: before SWI-Prolog 7.3,
 /// Prolog then calls it once more, to forget a state that is gone already.
-pub(crate) fn to_be_thrown<'a, C: QueryableContextType>(
+pub(crate) fn to_be_thrown<'a, C: Prolog>(
     call: &Origin<'a, C>,
     error: &Error,
     devices: &Registry,
@@ -83,7 +83,7 @@ pub(crate) fn to_be_thrown<'a, C: QueryableContextType>(
 }
 
 /// Raises `instantiation_error` for a variable, else `type_error`.
-pub(crate) fn wrong_type<T, C: QueryableContextType>(
+pub(crate) fn wrong_type<T, C: Prolog>(
     call: &Origin<C>,
     expected: &str,
     term: &Term,
@@ -98,7 +98,7 @@ pub(crate) fn wrong_type<T, C: QueryableContextType>(
 }
 
 /// Raises `domain_error(Domain, Term)`.
-pub(crate) fn wrong_value<T, C: QueryableContextType>(
+pub(crate) fn wrong_value<T, C: Prolog>(
     call: &Origin<C>,
     domain: &str,
     term: &Term,
@@ -107,7 +107,7 @@ pub(crate) fn wrong_value<T, C: QueryableContextType>(
 }
 
 /// Raises `domain_error(Domain, Term)`, with the reason as the message.
-pub(crate) fn wrong_because<T, C: QueryableContextType>(
+pub(crate) fn wrong_because<T, C: Prolog>(
     call: &Origin<C>,
     domain: &str,
     term: &Term,
@@ -120,7 +120,7 @@ pub(crate) fn wrong_because<T, C: QueryableContextType>(
 
 /// Raises `existence_error(Kind, Name)`, with the reason as the message.
 #[cfg(feature = "sim")]
-pub(crate) fn no_such<T, C: QueryableContextType>(
+pub(crate) fn no_such<T, C: Prolog>(
     call: &Origin<C>,
     kind: &str,
     name: &str,
@@ -132,7 +132,7 @@ pub(crate) fn no_such<T, C: QueryableContextType>(
 }
 
 /// Raises the error for an integer of more than 64 bits.
-pub(crate) fn too_long<T, C: QueryableContextType>(call: &Origin<C>) -> PrologResult<T> {
+pub(crate) fn too_long<T, C: Prolog>(call: &Origin<C>) -> PrologResult<T> {
     let context = call.context;
     let formal = term! {context: representation_error(int64_t)}?;
     throw(call, &formal, "")
@@ -140,7 +140,7 @@ pub(crate) fn too_long<T, C: QueryableContextType>(call: &Origin<C>) -> PrologRe
 
 /// Raises the error for a text that Rust, and a file's name, cannot have: half of a surrogate
 /// pair.
-pub(crate) fn no_text<T, C: QueryableContextType>(call: &Origin<C>) -> PrologResult<T> {
+pub(crate) fn no_text<T, C: Prolog>(call: &Origin<C>) -> PrologResult<T> {
     let context = call.context;
     let formal = term! {context: representation_error(character)}?;
     throw(call, &formal, "")
@@ -149,7 +149,7 @@ pub(crate) fn no_text<T, C: QueryableContextType>(call: &Origin<C>) -> PrologRes
 /// Raises `error(Formal, context(Called, Message))`, as
 /// `prolog/ev3dev/private/errors/errors.pl` does: that file finds the predicate that the
 /// program called, and words an empty message.
-fn throw<'a, T, C: QueryableContextType>(
+fn throw<'a, T, C: Prolog>(
     call: &Origin<'a, C>,
     formal: &Term<'a>,
     message: &str,
@@ -162,7 +162,7 @@ fn throw<'a, T, C: QueryableContextType>(
 }
 
 /// The arguments of `throw_error/3`.
-fn ball<'a, C: QueryableContextType>(
+fn ball<'a, C: Prolog>(
     call: &Origin<'a, C>,
     formal: Term<'a>,
     message: &str,
@@ -176,7 +176,7 @@ fn ball<'a, C: QueryableContextType>(
 }
 
 /// The formal term of a driver's error.
-fn formal<'a, C: QueryableContextType>(
+fn formal<'a, C: Prolog>(
     context: &'a Context<'a, C>,
     error: &Error,
     devices: &Registry,

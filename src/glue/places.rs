@@ -1,13 +1,11 @@
 //! Places: `X-Y` in cm. Read as `[X, Y]`, too, as `prolog/ev3dev/private/checks/places.pl` does.
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
+use crate::glue::terms::Prolog;
 use swipl::prelude::*;
 
 /// The x and y of a place.
-pub(crate) fn place<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<[f64; 2]> {
+pub(crate) fn place<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<[f64; 2]> {
     let pair = if matches!(term.term_type(), TermType::Nil | TermType::ListPair) {
         <[Term; 2]>::try_from(call.list(term)?).ok()
     } else if term.is_var() {
@@ -23,7 +21,7 @@ pub(crate) fn place<'a, C: QueryableContextType>(
 }
 
 /// A list of places.
-pub(crate) fn places<'a, C: QueryableContextType>(
+pub(crate) fn places<'a, C: Prolog>(
     call: &Call<'a, C>,
     term: &Term<'a>,
 ) -> PrologResult<Vec<[f64; 2]>> {
@@ -31,7 +29,7 @@ pub(crate) fn places<'a, C: QueryableContextType>(
 }
 
 /// `X-Y`.
-pub(crate) fn place_term<'a, C: QueryableContextType>(
+pub(crate) fn place_term<'a, C: Prolog>(
     call: &Call<'a, C>,
     [x, y]: [f64; 2],
 ) -> PrologResult<Term<'a>> {
@@ -43,7 +41,7 @@ pub(crate) fn place_term<'a, C: QueryableContextType>(
 }
 
 /// A list of `X-Y`.
-pub(crate) fn places_term<'a, C: QueryableContextType>(
+pub(crate) fn places_term<'a, C: Prolog>(
     call: &Call<'a, C>,
     places: &[[f64; 2]],
 ) -> PrologResult<Term<'a>> {

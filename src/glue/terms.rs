@@ -3,6 +3,9 @@ pub(crate) use crate::glue::interned::unify_atom;
 use ev3_driver::Value;
 use swipl::prelude::*;
 
+/// What the context of a native predicate can do: call Prolog.
+pub(crate) use swipl::prelude::QueryableContextType as Prolog;
+
 /// Unifies with a number or an atom.
 pub(crate) fn unify_value(term: &Term, value: &Value) -> PrologResult<()> {
     match value {
@@ -24,7 +27,7 @@ pub(crate) trait Ask {
     ) -> PrologResult<()>;
 }
 
-impl<C: QueryableContextType> Ask for Context<'_, C> {
+impl<C: Prolog> Ask for Context<'_, C> {
     fn ask<P: Callable<N>, const N: usize>(
         &self,
         predicate: P,

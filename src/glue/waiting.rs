@@ -9,7 +9,7 @@ use crate::glue::call::Call;
 use crate::glue::due;
 use crate::glue::error;
 use crate::glue::state;
-use crate::glue::terms::{Ask as _, unify_atom};
+use crate::glue::terms::{Ask as _, Prolog, unify_atom};
 use ev3_driver::Error;
 use ev3_driver::motor::{self, wait::Reason};
 use ev3_driver::wait::{Look, Slices, Wait};
@@ -202,7 +202,7 @@ fn is_tick_due_at_prompt() -> bool {
     })
 }
 
-impl<C: QueryableContextType> Call<'_, C> {
+impl<C: Prolog> Call<'_, C> {
     /// Stops the motors of all bricks whose last command was one of these, of this thread.
     pub(crate) fn stop_commanded(&self, commands: &Range<u32>) -> PrologResult<()> {
         let stop = |devices: &_| motor::stop_commanded(devices, commands);

@@ -2,6 +2,7 @@
 use super::running::simulation;
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
+use crate::glue::terms::Prolog;
 use ev3_driver::port_name;
 use ev3_sim::{Button, Machine, Port, Simulation};
 use std::sync::Arc;
@@ -17,7 +18,7 @@ enum Key {
 }
 
 impl Key {
-    fn of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Self> {
+    fn of<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<Self> {
         let text = call.text(term)?;
         if let Ok(button) = text.parse() {
             return Ok(Self::Button(button));

@@ -4,7 +4,7 @@ use super::running::{simulation, use_simulated};
 use crate::glue::call::Call;
 use crate::glue::error::no_such;
 use crate::glue::state::brick_number;
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Prolog, unify_atom};
 use ev3_driver::Error;
 use ev3_os::locked;
 use ev3_sim::far::wire::{Desk, Line, Next};
@@ -181,11 +181,7 @@ natives! {
 }
 
 /// What became of the program behind the fence.
-fn unify_state<C: QueryableContextType>(
-    call: &Call<C>,
-    term: &Term,
-    state: State,
-) -> PrologResult<()> {
+fn unify_state<C: Prolog>(call: &Call<C>, term: &Term, state: State) -> PrologResult<()> {
     let context = call.context;
     match state {
         State::Waiting => unify_atom(term, "waiting"),

@@ -2,7 +2,7 @@
 //!
 //! catch/3 throws an abort again when it has caught one, so no goal of Prolog ends it: only a
 //! query of native code does.
-use crate::glue::terms::Ask as _;
+use crate::glue::terms::{Ask as _, Prolog};
 use crate::glue::waiting;
 use std::cell::RefCell;
 use swipl::prelude::*;
@@ -43,7 +43,7 @@ natives! {
 }
 
 /// Whether the exception that is thrown now is how a limit leaves its goal.
-fn is_left<C: QueryableContextType>(context: &Context<C>, id: &Term) -> bool {
+fn is_left<C: Prolog>(context: &Context<C>, id: &Term) -> bool {
     context.with_exception(|ball| {
         let by = |ball| context.ask(pred!("ev3dev_time_limits:is_left_by/2"), [id, ball]);
         ball.is_some_and(|ball| by(ball).is_ok())

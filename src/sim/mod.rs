@@ -24,7 +24,7 @@ use crate::glue::call::Call;
 use crate::glue::due::Bell;
 use crate::glue::error::{no_such, wrong_because, wrong_value};
 use crate::glue::state::{devices, watched};
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Prolog, unify_atom};
 use crate::glue::watch;
 use ev3_driver::Registry;
 use ev3_driver::device::sleep::Sleep;
@@ -347,7 +347,7 @@ natives! {
 }
 
 /// An entry of a trace: where the robot was.
-fn pose_entry<'a, C: QueryableContextType>(
+fn pose_entry<'a, C: Prolog>(
     context: &'a Context<'a, C>,
     at: Duration,
     pose: Pose,
@@ -357,7 +357,7 @@ fn pose_entry<'a, C: QueryableContextType>(
 }
 
 /// An entry of a trace: what happened.
-fn event_entry<'a, C: QueryableContextType>(
+fn event_entry<'a, C: Prolog>(
     context: &'a Context<'a, C>,
     event: &Event,
 ) -> PrologResult<Term<'a>> {
@@ -378,7 +378,7 @@ fn event_entry<'a, C: QueryableContextType>(
 }
 
 /// The running simulation, if it has one robot: several have one time.
-fn alone<C: QueryableContextType>(call: &Call<C>) -> PrologResult<Arc<Simulation>> {
+fn alone<C: Prolog>(call: &Call<C>) -> PrologResult<Arc<Simulation>> {
     let simulation = simulation(call.context)?;
     if simulation.robots() > 1 {
         let reason = "several robots have one time, which goes back for none of them";
@@ -388,7 +388,7 @@ fn alone<C: QueryableContextType>(call: &Call<C>) -> PrologResult<Arc<Simulation
 }
 
 /// `world` or `robot`.
-fn subject_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Subject> {
+fn subject_of<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<Subject> {
     match &*call.text(term)? {
         "world" => Ok(Subject::World),
         "robot" => Ok(Subject::Robot),
@@ -397,7 +397,7 @@ fn subject_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologRes
 }
 
 /// A fact of the vocabulary, checked alone.
-fn known_fact<'a, C: QueryableContextType>(
+fn known_fact<'a, C: Prolog>(
     call: &Call<'a, C>,
     subject: Subject,
     term: &Term<'a>,
@@ -412,7 +412,7 @@ fn known_fact<'a, C: QueryableContextType>(
     facts::unknown(call, domain, subject, term)
 }
 
-fn facts_of<'a, C: QueryableContextType>(
+fn facts_of<'a, C: Prolog>(
     call: &Call<'a, C>,
     subject: Subject,
     list: &Term<'a>,
@@ -443,7 +443,7 @@ fn built(
 }
 
 /// The clock, whether there is noise, and the rest.
-fn options_of<'a, C: QueryableContextType>(
+fn options_of<'a, C: Prolog>(
     call: &Call<'a, C>,
     options: &Term<'a>,
 ) -> PrologResult<(Clock, bool, Options)> {
@@ -457,7 +457,7 @@ fn options_of<'a, C: QueryableContextType>(
 type Robot = (u32, String, Vec<Fact>);
 
 /// robot(Brick, Name, RobotFacts)
-fn robot<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Robot> {
+fn robot<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Robot> {
     let [brick, name, facts] = call.arguments(term)?;
     let brick = u32::try_from(call.integer(&brick)?).unwrap_or(u32::MAX);
     Ok((brick, call.text(&name)?.into_owned(), facts_of(call, Subject::Robot, &facts)?))
@@ -465,7 +465,7 @@ fn robot<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> Pr
 
 /// Starts several robots in a world; the inner error is that of a robot by its index, or of the
 /// world.
-fn start_robots<C: QueryableContextType>(
+fn start_robots<C: Prolog>(
     call: &Call<C>,
     world: &[Fact],
     robots: Vec<Robot>,
@@ -485,7 +485,7 @@ fn start_robots<C: QueryableContextType>(
 }
 
 /// fault(Subject, Index, Why); the subject is one of several robots if it has a place among them.
-fn unify_fault<C: QueryableContextType>(
+fn unify_fault<C: Prolog>(
     call: &Call<C>,
     fault: &Term,
     robot: Option<usize>,
@@ -503,10 +503,7 @@ fn unify_fault<C: QueryableContextType>(
 }
 
 /// `realtime`, `scaled(Factor)` or `virtual`.
-fn clock_of<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<Clock> {
+fn clock_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Clock> {
     let factor = match attempt_opt(call.context.compound_terms::<1>(term))? {
         Some([factor]) => Some(call.float(&factor)?),
         None => match &*call.text(term)? {
@@ -522,7 +519,7 @@ fn clock_of<'a, C: QueryableContextType>(
 }
 
 /// A port, in either spelling.
-fn port_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<ev3_sim::Port> {
+fn port_of<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<ev3_sim::Port> {
     let text = call.text(term)?;
     match ev3_driver::port_name::socket(&text).parse() {
         Ok(port) => Ok(port),
@@ -531,7 +528,7 @@ fn port_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult
 }
 
 /// Why an attribute cannot be made to show a text.
-fn cannot_show<T, C: QueryableContextType>(
+fn cannot_show<T, C: Prolog>(
     call: &Call<C>,
     errno: Errno,
     attribute: &Term,
@@ -549,10 +546,7 @@ fn cannot_show<T, C: QueryableContextType>(
 }
 
 /// The simulator's result; raises an impossible request as an exception.
-fn possible<T, C: QueryableContextType>(
-    call: &Call<C>,
-    result: Result<T, SpecError>,
-) -> PrologResult<T> {
+fn possible<T, C: Prolog>(call: &Call<C>, result: Result<T, SpecError>) -> PrologResult<T> {
     result.or_else(|error| {
         let item = call.context.new_term_ref();
         unify_atom(&item, &error.item)?;

@@ -3,6 +3,7 @@ use crate::glue::call::Call;
 use crate::glue::error::{no_such, wrong_because};
 use crate::glue::sources::close_sources;
 use crate::glue::state::{brick_number, dev, devices, use_default_dev, use_default_files};
+use crate::glue::terms::Prolog;
 use ev3_driver::Registry;
 use ev3_os::locked;
 use ev3_sim::{Mount, MountError, Shared};
@@ -24,7 +25,7 @@ struct Mounted {
 
 /// Mounts the tree of a machine on a directory, and its device files on
 /// another one if it is given. A brick has one mount: this unmounts an earlier one.
-pub(crate) fn mount<C: QueryableContextType>(
+pub(crate) fn mount<C: Prolog>(
     call: &Call<C>,
     machine: &Arc<Shared>,
     classes: &Term,
@@ -37,7 +38,7 @@ pub(crate) fn mount<C: QueryableContextType>(
     Ok(())
 }
 
-fn mounted<C: QueryableContextType>(
+fn mounted<C: Prolog>(
     call: &Call<C>,
     term: &Term,
     mount: fn(Arc<Shared>, &Path) -> Result<Mount, MountError>,
@@ -58,7 +59,7 @@ fn mounted<C: QueryableContextType>(
 }
 
 /// Unmounts; fails if nothing is mounted.
-pub(crate) fn unmount<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> {
+pub(crate) fn unmount<C: Prolog>(call: &Call<C>) -> PrologResult<()> {
     let mounted = take().ok_or(PrologError::Failure)?;
     call.or_throw(let_go(&mounted))?;
     if let Some(mount) = mounted.dev {
@@ -90,7 +91,7 @@ fn wait_until_unused(devices: &Weak<Registry>) {
     }
 }
 
-fn gone<C: QueryableContextType>(call: &Call<C>, mount: Mount) -> PrologResult<()> {
+fn gone<C: Prolog>(call: &Call<C>, mount: Mount) -> PrologResult<()> {
     mount.unmount().or_else(|error| no_such(call, "mount", "mount", &error.to_string()))
 }
 

@@ -1,12 +1,13 @@
 //! Replaces `mount.rs` if the library is built without FUSE.
 use crate::glue::call::Call;
 use crate::glue::error::no_such;
+use crate::glue::terms::Prolog;
 use ev3_sim::Shared;
 use std::sync::Arc;
 use swipl::prelude::*;
 
 /// Raises the error that the library has no FUSE.
-pub(crate) fn mount<C: QueryableContextType>(
+pub(crate) fn mount<C: Prolog>(
     call: &Call<C>,
     _machine: &Arc<Shared>,
     _classes: &Term,
@@ -16,7 +17,7 @@ pub(crate) fn mount<C: QueryableContextType>(
 }
 
 /// Fails: nothing is mounted.
-pub(crate) fn unmount<C: QueryableContextType>(_call: &Call<C>) -> PrologResult<()> {
+pub(crate) fn unmount<C: Prolog>(_call: &Call<C>) -> PrologResult<()> {
     Err(PrologError::Failure)
 }
 

@@ -7,6 +7,7 @@ use crate::glue::error::no_such;
 use crate::glue::state::{
     Selected, brick_number, select, selected, use_brick, use_dev, use_tree, watched,
 };
+use crate::glue::terms::Prolog;
 use crate::glue::waiting::tick_at_once;
 use crate::glue::watch;
 use ev3_os::locked;
@@ -29,9 +30,7 @@ struct Running {
 }
 
 /// The running simulation, in which it is this thread's turn; fails if there is none.
-pub(super) fn simulation<C: QueryableContextType>(
-    context: &Context<C>,
-) -> PrologResult<Arc<Simulation>> {
+pub(super) fn simulation<C: Prolog>(context: &Context<C>) -> PrologResult<Arc<Simulation>> {
     let simulation = running_simulation();
     let call = Call::of(context, "sim_start", 1);
     let Some(simulation) = simulation else {
@@ -69,7 +68,7 @@ pub(crate) fn has_virtual_clock(brick: u32) -> bool {
 }
 
 /// Fails because no simulation runs.
-fn none<C: QueryableContextType, T>(call: &Call<C>) -> PrologResult<T> {
+fn none<C: Prolog, T>(call: &Call<C>) -> PrologResult<T> {
     let context = call.context;
     call.fail_because(&term! {context: no_simulation}?)
 }
@@ -80,7 +79,7 @@ pub(super) fn is_running() -> bool {
 }
 
 /// Starts a simulation and ends the running one.
-pub(super) fn start<C: QueryableContextType>(
+pub(super) fn start<C: Prolog>(
     call: &Call<C>,
     mut machine: Machine,
     clock: Clock,
@@ -94,7 +93,7 @@ pub(super) fn start<C: QueryableContextType>(
 
 /// Starts a simulation of several robots, each in the brick of this number and with its name. The
 /// inner error is that of a robot, by its index.
-pub(super) fn start_crowd<C: QueryableContextType>(
+pub(super) fn start_crowd<C: Prolog>(
     call: &Call<C>,
     robots: &[(u32, String)],
     machines: Vec<Machine>,
@@ -118,13 +117,13 @@ pub(super) fn start_crowd<C: QueryableContextType>(
     started.map(Ok)
 }
 
-fn no_thread<T, C: QueryableContextType>(call: &Call<C>, error: &io::Error) -> PrologResult<T> {
+fn no_thread<T, C: Prolog>(call: &Call<C>, error: &io::Error) -> PrologResult<T> {
     no_such(call, "resource", "thread", &error.to_string())
 }
 
 /// Runs a simulation in the brick in use, in the place of the running one. Somebody who watches
 /// sees it at the pace of that.
-fn run<C: QueryableContextType>(
+fn run<C: Prolog>(
     call: &Call<C>,
     simulation: Simulation,
     names: Arc<[String]>,
@@ -145,7 +144,7 @@ fn run<C: QueryableContextType>(
 }
 
 /// Uses the files of a simulation from now on; its machine may be in another process.
-pub(super) fn use_simulated<C: QueryableContextType>(
+pub(super) fn use_simulated<C: Prolog>(
     call: &Call<C>,
     simulation: Arc<Simulation>,
     is_here: bool,
@@ -157,7 +156,7 @@ pub(super) fn use_simulated<C: QueryableContextType>(
 }
 
 /// Ends the simulation and goes back to the files before it; fails if there is none.
-pub(super) fn stop<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> {
+pub(super) fn stop<C: Prolog>(call: &Call<C>) -> PrologResult<()> {
     if !is_running() {
         return none(call);
     }

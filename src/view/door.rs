@@ -2,7 +2,7 @@
 use super::reach::{outside, stop_motors};
 use super::{simulated, terms};
 use crate::glue::call::{Call, Text};
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Prolog, unify_atom};
 use crate::sim::watched_simulation;
 use ev3_door::{Door, Heard, Made, Page, Site, Visit};
 use ev3_os::locked;
@@ -91,11 +91,7 @@ natives! {
 }
 
 /// Does nothing if the page was left.
-pub(super) fn say<C: QueryableContextType>(
-    call: &Call<C>,
-    page: &Term,
-    text: &str,
-) -> PrologResult<()> {
+pub(super) fn say<C: Prolog>(call: &Call<C>, page: &Term, text: &str) -> PrologResult<()> {
     attempt_opt(page_of(call, page))?.iter().for_each(|page| page.say(text));
     Ok(())
 }
@@ -113,10 +109,10 @@ fn door() -> PrologResult<Arc<Door>> {
 }
 
 /// A page; fails if it was left.
-fn page_of<C: QueryableContextType>(call: &Call<C>, page: &Term) -> PrologResult<Arc<Page>> {
+fn page_of<C: Prolog>(call: &Call<C>, page: &Term) -> PrologResult<Arc<Page>> {
     door()?.page(number_of(call, page)?).ok_or(PrologError::Failure)
 }
 
-fn number_of<C: QueryableContextType>(call: &Call<C>, page: &Term) -> PrologResult<u32> {
+fn number_of<C: Prolog>(call: &Call<C>, page: &Term) -> PrologResult<u32> {
     u32::try_from(call.integer(page)?).map_err(|_| PrologError::Failure)
 }

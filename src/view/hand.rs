@@ -3,7 +3,7 @@ use super::reach::outside;
 use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_value};
 use crate::glue::state::watched;
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Prolog, unify_atom};
 use crate::sim::watched_simulation;
 use ev3_os::locked;
 use ev3_sim::{Clock, ItemId, Port, Simulation};
@@ -114,7 +114,7 @@ pub(super) fn pulled() -> Pulled {
     if of == watched().film() { pulled } else { Pulled::default() }
 }
 
-fn port_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Port> {
+fn port_of<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<Port> {
     match call.text(term)?.parse() {
         Ok(port) => Ok(port),
         Err(_) => wrong_value(call, "port", term),

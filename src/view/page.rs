@@ -1,7 +1,7 @@
 //! The page itself is where this library runs: it is talked with without a server.
 use super::terms;
 use crate::glue::call::Call;
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Prolog, unify_atom};
 use ev3_os::page;
 use swipl::prelude::*;
 
@@ -21,11 +21,7 @@ natives! {
     }
 }
 
-pub(super) fn say<C: QueryableContextType>(
-    _call: &Call<C>,
-    _page: &Term,
-    text: &str,
-) -> PrologResult<()> {
+pub(super) fn say<C: Prolog>(_call: &Call<C>, _page: &Term, text: &str) -> PrologResult<()> {
     page::say_to_page(text);
     Ok(())
 }

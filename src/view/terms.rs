@@ -1,14 +1,11 @@
 //! Terms of JSON, as Prolog has them.
 use crate::glue::call::Call;
+use crate::glue::terms::Prolog;
 use ev3_json::Json;
 use swipl::prelude::*;
 
 /// Writes `json(Pairs)` of `Name=Value`, a list, a number, `true`, `false`, `null`, or a text.
-fn report<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-    json: &mut Json,
-) -> PrologResult<()> {
+fn report<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>, json: &mut Json) -> PrologResult<()> {
     let mut done = Ok(());
     match term.term_type() {
         TermType::Integer | TermType::Float => json.number(call.float(term)?, 6),
@@ -35,10 +32,7 @@ fn report<'a, C: QueryableContextType>(
 }
 
 /// A term as JSON.
-pub(super) fn text<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<String> {
+pub(super) fn text<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<String> {
     let mut json = Json::new();
     report(call, term, &mut json)?;
     Ok(json.into_text())

@@ -93,13 +93,11 @@ impl Door {
     }
 
     /// The port that is served.
-    #[must_use]
     pub fn port(&self) -> u16 {
         self.port
     }
 
     /// Waits for the next visit; `None` if the door is closed.
-    #[must_use]
     pub fn visit(&self) -> Option<Visit> {
         let has_none = |visits: &mut Option<Vec<_>>| visits.as_ref().is_some_and(Vec::is_empty);
         let visits = locked(&self.shared.visits);
@@ -108,7 +106,6 @@ impl Door {
     }
 
     /// A page that talks.
-    #[must_use]
     pub fn page(&self, number: u32) -> Option<Arc<Page>> {
         let pages = locked(&self.shared.pages);
         pages.iter().find(|page| page.0 == number).map(|page| page.1.clone())

@@ -37,7 +37,6 @@ impl Class {
     pub const MOTORS: [Self; 3] = [Self::TachoMotor, Self::DcMotor, Self::ServoMotor];
 
     /// The class's directory below the tree's root.
-    #[must_use]
     pub fn directory(self) -> &'static str {
         match self {
             Self::TachoMotor => "tacho-motor",

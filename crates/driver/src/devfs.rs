@@ -55,15 +55,9 @@ pub trait Stream: Send + Sync {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize>;
 
     /// Writes behind what was written before.
-    ///
-    /// # Errors
-    /// The kernel's.
     fn write(&self, bytes: &[u8]) -> io::Result<usize>;
 
     /// Passes over what could be read so far.
-    ///
-    /// # Errors
-    /// The kernel's.
     fn skip(&self) -> io::Result<()>;
 
     /// The keys that are down, a bit for each code, as EVIOCGKEY reports.

@@ -4,7 +4,7 @@ use ev3_os::Errno;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Result of this crate's functions.
+/// Result of this crate's functions. An error that their comments do not name is the kernel's.
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// Asked at least every 20 ms while something waits; `true` abandons the wait
@@ -149,7 +149,6 @@ pub enum Error {
 
 impl Error {
     /// The kernel's error number, if it was the kernel that refused.
-    #[must_use]
     pub fn errno(&self) -> Option<Errno> {
         match self {
             Self::Open { source, .. } | Self::Read { source, .. } | Self::Write { source, .. } => {
@@ -161,19 +160,16 @@ impl Error {
 
     /// Whether this is how an unplugged device answers: ENODEV on a kept
     /// descriptor, ENOENT on a path that has vanished.
-    #[must_use]
     pub fn is_stale(&self) -> bool {
         matches!(self.errno(), Some(Errno::NODEV | Errno::NOENT))
     }
 
     /// Whether a device was unplugged: it answers so, or was found to be missing.
-    #[must_use]
     pub fn is_unplugged(&self) -> bool {
         self.is_stale() || matches!(self, Self::Unplugged { .. })
     }
 
     /// The file it went wrong at.
-    #[must_use]
     pub fn path(&self) -> Option<&Path> {
         match self {
             Self::Open { path, .. }

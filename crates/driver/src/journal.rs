@@ -33,7 +33,6 @@ thread_local! {
 }
 
 /// Why this thread does what it does.
-#[must_use]
 pub fn origin() -> Origin {
     ORIGIN.get()
 }
@@ -62,7 +61,6 @@ pub struct Name {
 
 impl Name {
     /// The text.
-    #[must_use]
     pub fn text(&self) -> &str {
         let text = self.bytes.get(..self.length.into()).unwrap_or_default();
         std::str::from_utf8(text).unwrap_or_default()
@@ -126,7 +124,6 @@ impl Word {
     }
 
     /// The kernel's word for it.
-    #[must_use]
     pub fn text(self) -> &'static str {
         match self {
             Self::RunForever => "run-forever",
@@ -258,7 +255,6 @@ impl MotorCommand {
     }
 
     /// The stop action, if the command uses it and the program has written it.
-    #[must_use]
     pub fn stop_action(&self) -> Option<StopAction> {
         let (_, uses_action) = self.word.uses(self.class);
         self.set_points.stop_action.filter(|_| uses_action)
@@ -389,7 +385,6 @@ impl Journal {
     }
 
     /// The entries, the last first.
-    #[must_use]
     pub fn entries(&self) -> Vec<Entry> {
         let ring = locked(&self.0);
         let (new, old) = ring.entries.split_at(ring.next);
@@ -398,7 +393,6 @@ impl Journal {
 
     /// What was done after the first `count` commands, as far as it is kept, in its order; and
     /// how many commands there were in all.
-    #[must_use]
     pub fn after(&self, count: u64) -> (Vec<Entry>, u64) {
         let ring = locked(&self.0);
         let new = usize::try_from(ring.count.saturating_sub(count)).unwrap_or(usize::MAX);

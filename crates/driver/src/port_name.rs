@@ -10,7 +10,6 @@ use std::cmp::Ordering;
 const BOARDS: [&str; 2] = ["ev3-ports:", "evb-ports:"];
 
 /// The short name of a port: `outA` for `ev3-ports:outA`.
-#[must_use]
 pub fn short(address: &str) -> &str {
     BOARDS.iter().find_map(|board| address.strip_prefix(board)).unwrap_or(address)
 }
@@ -18,7 +17,6 @@ pub fn short(address: &str) -> &str {
 /// The socket that a port is in: `in1` for the sensor at address 1 of the I2C
 /// bus there, `in1:i2c1`. A sensor on a multiplexer, such as `in1:i2c80:mux1`, is in no
 /// socket.
-#[must_use]
 pub fn socket(port: &str) -> &str {
     let is_address = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     match short(port).rsplit_once(":i2c") {
@@ -29,7 +27,6 @@ pub fn socket(port: &str) -> &str {
 
 /// Whether `port` names the device at `address`: by its address in either
 /// spelling, or by the socket it is in.
-#[must_use]
 pub fn names(port: &str, address: &str) -> bool {
     let (port, address) = (short(port), short(address));
     port == address || port == socket(address)
@@ -37,7 +34,6 @@ pub fn names(port: &str, address: &str) -> bool {
 
 /// The order in which ports are listed: alphabetical, with numbers in their
 /// own order, so that `S2` comes before `S10`.
-#[must_use]
 pub fn order(a: &str, b: &str) -> Ordering {
     let mut chunks = (chunks(a), chunks(b));
     loop {

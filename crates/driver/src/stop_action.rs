@@ -17,7 +17,6 @@ impl StopAction {
     pub const ALL: [Self; 3] = [Self::Coast, Self::Brake, Self::Hold];
 
     /// The kernel's word for it.
-    #[must_use]
     pub fn word(self) -> &'static str {
         match self {
             Self::Coast => "coast",
@@ -27,7 +26,6 @@ impl StopAction {
     }
 
     /// The action of that name.
-    #[must_use]
     pub fn named(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|action| action.word() == word)
     }

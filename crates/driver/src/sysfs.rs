@@ -116,9 +116,6 @@ pub trait Sysfs: Send + Sync {
 pub type Repeated = Box<dyn FnMut() -> Option<Duration> + Send>;
 
 /// Sleeps by the tree's clock, interruptibly.
-///
-/// # Errors
-/// [`Error::Interrupted`].
 pub fn sleep(tree: &dyn Sysfs, time: Duration, interrupted: Interrupted) -> Result<()> {
     let end = tree.now().saturating_add(time);
     loop {
@@ -135,9 +132,6 @@ pub fn sleep(tree: &dyn Sysfs, time: Duration, interrupted: Interrupted) -> Resu
 
 /// Lets time pass as [`Sysfs::pause`] does, once, and handles signals meanwhile. A pause
 /// that failed is over, too: the caller asks the clock, or looks again.
-///
-/// # Errors
-/// [`Error::Interrupted`].
 pub(crate) fn pause(
     tree: &dyn Sysfs,
     nodes: &[&dyn AttributeFile],
@@ -168,17 +162,11 @@ pub trait AttributeFile: Send + Sync {
     fn write(&self, text: &[u8]) -> io::Result<()>;
 
     /// Reads a file that is no text, from an offset on.
-    ///
-    /// # Errors
-    /// The driver's.
     fn read_at(&self, _buffer: &mut [u8], _offset: u8) -> io::Result<usize> {
         Err(Errno::OPNOTSUPP.into())
     }
 
     /// Writes a file that is no text, from an offset on.
-    ///
-    /// # Errors
-    /// The driver's.
     fn write_at(&self, _bytes: &[u8], _offset: u8) -> io::Result<()> {
         Err(Errno::OPNOTSUPP.into())
     }
@@ -196,9 +184,6 @@ pub trait AttributeFile: Send + Sync {
 
     /// ENODEV if the file was deleted under a descriptor that goes on working
     /// all the same, as that of a plain file does.
-    ///
-    /// # Errors
-    /// ENODEV.
     fn check_present(&self) -> io::Result<()> {
         Ok(())
     }

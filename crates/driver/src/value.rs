@@ -62,7 +62,6 @@ impl Value {
     /// assert_eq!(Value::parse("7.5".to_owned()), Value::Float(7.5));
     /// assert_eq!(Value::parse("inf".to_owned()), Value::Text("inf".to_owned()));
     /// ```
-    #[must_use]
     pub fn parse(text: String) -> Self {
         match integer(text.as_bytes()) {
             Some(integer) => Self::Integer(integer),
@@ -72,7 +71,6 @@ impl Value {
 
     /// The integer `value` divided by 10^`decimals`: an integer where there
     /// are no decimals, else a float.
-    #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "sensor values have 32 bits, decimals are few")]
     pub fn scaled(value: i64, decimals: i64) -> Self {
         match i32::try_from(decimals) {
@@ -84,7 +82,6 @@ impl Value {
 
 /// A decimal integer with an optional sign, and nothing else. `None` for any other
 /// text, and for more than 64 bits.
-#[must_use]
 pub fn integer(text: &[u8]) -> Option<i64> {
     let (negative, digits) = match text {
         [b'-', digits @ ..] => (true, digits),
@@ -125,7 +122,6 @@ fn fraction(text: &str) -> Option<f64> {
 ///
 /// The kernel ends each text with one newline. A plain file that held a longer
 /// text may show the rest of it on further lines for a moment.
-#[must_use]
 pub fn first_line(bytes: &[u8]) -> &[u8] {
     let end = bytes.iter().position(|byte| *byte == b'\n');
     end.and_then(|end| bytes.get(..end)).unwrap_or(bytes)

@@ -42,9 +42,6 @@ pub trait Wait {
 
     /// Lets time pass until `end`, or for less. `false` as for
     /// [`Sysfs::pause`](crate::sysfs::Sysfs::pause).
-    ///
-    /// # Errors
-    /// The kernel's.
     fn pause(&mut self, end: Duration) -> Result<bool>;
 }
 
@@ -103,9 +100,6 @@ impl<W: Wait> Slices<W> {
     }
 
     /// Looks when it is time to, and lets no time pass. `now` is the time of the tree.
-    ///
-    /// # Errors
-    /// As [`slice`](Self::slice).
     pub fn poll(&mut self, now: Duration) -> Result<Look<W::End>> {
         if let Some(end) = self.pausing.take() {
             if now < end || !self.wait.pause(now)? {

@@ -113,7 +113,6 @@ impl Field {
 
     /// The same with a table of what is heard where: for processors that calculate slowly. It has
     /// steps of 5 cm and 5 degrees. A map that is very large gets none.
-    #[must_use]
     pub fn with_table(mut self) -> Field {
         let size = self.columns * self.rows * usize::from(TURNS);
         if size > LARGEST_TABLE {
@@ -136,14 +135,12 @@ impl Field {
     }
 
     /// Whether it has a table.
-    #[must_use]
     pub fn has_table(&self) -> bool {
         self.table.is_some()
     }
 
     /// The distance of the nearest thing in the cone of a sensor, in cm; `None` if it is farther
     /// than the sensor hears.
-    #[must_use]
     pub fn heard(&self, sensor: Pose) -> Option<f64> {
         match &self.table {
             Some(table) => self.looked_up(table, sensor),
@@ -184,7 +181,6 @@ impl Field {
     }
 
     /// Whether the middle of the robot may be there.
-    #[must_use]
     pub fn is_free(&self, at: Point) -> bool {
         self.cell(at).is_some_and(|cell| self.free[cell])
     }
@@ -204,13 +200,11 @@ impl Field {
     }
 
     /// The rectangle around it.
-    #[must_use]
     pub fn bounds(&self) -> Bounds {
         self.bounds
     }
 
     /// Where the middle of the robot may be, in square meters.
-    #[must_use]
     pub fn free_area(&self) -> f64 {
         float(self.free_cells) * CELL * CELL / 1e4
     }

@@ -99,7 +99,6 @@ pub struct Localizer {
 
 impl Localizer {
     /// A robot that may be anywhere.
-    #[must_use]
     pub fn new(field: Field, mut options: Options) -> Localizer {
         if field.has_table() {
             options.model.sigma[0] += COARSENESS;
@@ -272,26 +271,22 @@ impl Localizer {
     }
 
     /// The clusters, the most probable one first; none before the first search.
-    #[must_use]
     pub fn clusters(&self) -> Vec<Cluster> {
         self.particles.clusters()
     }
 
     /// The most probable cluster.
-    #[must_use]
     pub fn best(&self) -> Option<Cluster> {
         self.clusters().first().copied()
     }
 
     /// How far it is sure of the most probable cluster, from 0 to 1: that cluster's share of the
     /// probability, times how well the measurements fit.
-    #[must_use]
     pub fn confidence(&self) -> f64 {
         self.best().map_or(0.0, |best| best.weight * self.fit)
     }
 
     /// The most probable cluster, moved on by odometry since it was measured.
-    #[must_use]
     pub fn best_now(&self, odometry: Pose) -> Option<Cluster> {
         let best = self.best()?;
         let since = Move::between(self.moved.unwrap_or(odometry), odometry);
@@ -300,32 +295,27 @@ impl Localizer {
     }
 
     /// The most probable cluster, if it may correct the odometry.
-    #[must_use]
     pub fn sure(&self, odometry: Pose) -> Option<Cluster> {
         self.best_now(odometry)
             .filter(|best| self.is_tracking && best.weight >= SURE && best.deviation() <= NARROW)
     }
 
     /// How well the measurements fit, from 0 to 1.
-    #[must_use]
     pub fn fit(&self) -> f64 {
         self.fit
     }
 
     /// Whether it must look around: it does not know where it is.
-    #[must_use]
     pub fn must_look(&self) -> bool {
         !self.is_tracking
     }
 
     /// All particles.
-    #[must_use]
     pub fn particles(&self) -> &[Particle] {
         &self.particles.all
     }
 
     /// The map.
-    #[must_use]
     pub fn field(&self) -> &Field {
         &self.field
     }

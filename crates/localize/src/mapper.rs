@@ -104,7 +104,6 @@ pub struct Mapper {
 
 impl Mapper {
     /// Nothing is known; the sensor is there on the robot.
-    #[must_use]
     pub fn new(sensor: Pose) -> Mapper {
         let (looks, trail, tried) = (Vec::new(), Vec::new(), Vec::new());
         Mapper { sensor, looks, last: None, trail, tried, grid: None }
@@ -140,7 +139,6 @@ impl Mapper {
     }
 
     /// The side of a cell, in cm.
-    #[must_use]
     pub fn cell_side() -> f64 {
         CELL
     }

@@ -44,7 +44,6 @@ impl Default for Model {
 impl Model {
     /// How likely it is to hear something at a distance in cm where the map has it at
     /// `expected`; `None` is nothing. A deviation in cm adds to that of the model.
-    #[must_use]
     pub fn likelihood(&self, expected: Option<f64>, heard: Option<f64>, more: f64) -> f64 {
         let anything = self.random / FAR;
         match (expected, heard) {

@@ -28,7 +28,6 @@ pub struct Cluster {
 
 impl Cluster {
     /// Standard deviation of the place, in cm.
-    #[must_use]
     pub fn deviation(&self) -> f64 {
         (self.covariance[0][0] + self.covariance[1][1]).sqrt()
     }

@@ -17,39 +17,33 @@ pub struct Path {
 
 impl Path {
     /// A path of these segments; those without a length are left out.
-    #[must_use]
     pub fn new(mut segments: Vec<Segment>) -> Self {
         segments.retain(|segment| segment.length() > 1e-9);
         Self { segments }
     }
 
     /// The lines through these points.
-    #[must_use]
     pub fn straight(corners: &[Point]) -> Self {
         Self::new(corners.windows(2).map(|pair| Segment::line(pair[0], pair[1])).collect())
     }
 
     /// Its segments.
-    #[must_use]
     pub fn segments(&self) -> &[Segment] {
         &self.segments
     }
 
     /// Where segments begin and end.
-    #[must_use]
     pub fn points(&self) -> Vec<Point> {
         let first = self.segments.first().map(Segment::from);
         first.into_iter().chain(self.segments.iter().map(Segment::to)).collect()
     }
 
     /// In cm.
-    #[must_use]
     pub fn length(&self) -> f64 {
         self.segments.iter().map(Segment::length).sum()
     }
 
     /// Its beginning, up to a distance in cm.
-    #[must_use]
     pub fn until(&self, mut way: f64) -> Self {
         let mut segments = Vec::new();
         for segment in &self.segments {
@@ -80,7 +74,6 @@ impl Path {
     }
 
     /// The heading at its start, in degrees.
-    #[must_use]
     pub fn heading(&self) -> f64 {
         let start = self.segments.first().map_or([0.0; 2], Segment::from);
         direction(start, self.beyond(AHEAD))
@@ -89,7 +82,6 @@ impl Path {
     /// How a robot at a pose stays on its way: how much of the way it has
     /// behind it, in cm, given how much it had before; and by how much to turn
     /// on each cm, in degrees, clockwise positive.
-    #[must_use]
     pub fn steer(&self, at: Pose, before: f64) -> (f64, f64) {
         let window = before..=before + 2.0 * AHEAD;
         let near = self.samples(0.5).filter(|(way, _)| window.contains(way));

@@ -20,62 +20,52 @@ pub const FARTHEST: f64 = 1e6;
 pub const OUT_OF_RANGE: &str = "has a number beyond 1000000";
 
 /// False for what is too large, and what is no number.
-#[must_use]
 pub fn is_in_range(number: f64) -> bool {
     number.abs() <= FARTHEST
 }
 
 /// The vector to a point.
-#[must_use]
 pub fn vec2([x, y]: Point) -> Vec2 {
     Vec2::new(x, y)
 }
 
 /// The point to which a vector leads.
-#[must_use]
 pub fn point(vector: Vec2) -> Point {
     [vector.x, vector.y]
 }
 
 /// The length of a vector.
-#[must_use]
 pub fn length(vector: Vec2) -> f64 {
     libm::hypot(vector.x, vector.y)
 }
 
 /// Sine and cosine of degrees.
-#[must_use]
 pub fn sin_cos(degrees: f64) -> (f64, f64) {
     libm::sincos(degrees.to_radians())
 }
 
 /// The vector of length 1 that points where a heading does.
-#[must_use]
 pub fn heading_vector(heading: f64) -> Vec2 {
     let (sin, cos) = sin_cos(heading);
     Vec2::new(sin, cos)
 }
 
 /// A frame at a point, turned counter-clockwise by the angle with this cosine and sine.
-#[must_use]
 pub fn frame(at: Vec2, cos: f64, sin: f64) -> Frame {
     Frame::from_parts(Translation::from(at), Rotation::from_cos_sin_unchecked(cos, sin))
 }
 
 /// A point of a frame, in the world.
-#[must_use]
 pub fn outside(frame: &Frame, point: Vec2) -> Vec2 {
     frame.rotation * point + frame.translation.vector
 }
 
 /// The compass direction from one place to another, in degrees.
-#[must_use]
 pub fn direction([x0, y0]: Point, [x1, y1]: Point) -> f64 {
     libm::atan2(x1 - x0, y1 - y0).to_degrees()
 }
 
 /// How far one place is from another, in cm.
-#[must_use]
 pub fn distance([x0, y0]: Point, [x1, y1]: Point) -> f64 {
     libm::hypot(x1 - x0, y1 - y0)
 }
@@ -91,25 +81,21 @@ pub struct Bounds {
 
 impl Bounds {
     /// Whether all its numbers are in range.
-    #[must_use]
     pub fn is_in_range(&self) -> bool {
         [self.low, self.high].into_iter().flatten().all(is_in_range)
     }
 
     /// Whether it has an inside.
-    #[must_use]
     pub fn has_inside(&self) -> bool {
         self.low[0] < self.high[0] && self.low[1] < self.high[1]
     }
 
     /// Its width and its height.
-    #[must_use]
     pub fn size(&self) -> [f64; 2] {
         [self.high[0] - self.low[0], self.high[1] - self.low[1]]
     }
 
     /// Whether a place is within, or on the edge.
-    #[must_use]
     pub fn contain(&self, place: Point) -> bool {
         (0..2).all(|axis| (self.low[axis]..=self.high[axis]).contains(&place[axis]))
     }
@@ -121,7 +107,6 @@ impl Bounds {
     }
 
     /// The same with room around it.
-    #[must_use]
     pub fn with_room(&self, room: f64) -> Self {
         Self { low: self.low.map(|n| n - room), high: self.high.map(|n| n + room) }
     }

@@ -15,40 +15,34 @@ pub struct Pose {
 
 impl Pose {
     /// A pose from its three numbers.
-    #[must_use]
     pub const fn new(x: f64, y: f64, heading: f64) -> Self {
         Self { x, y, heading }
     }
 
     /// False if a number is too large or none.
-    #[must_use]
     pub fn is_in_range(&self) -> bool {
         [self.x, self.y, self.heading].into_iter().all(is_in_range)
     }
 
     /// The frame whose x is to the right of this pose and whose y lies ahead of it.
-    #[must_use]
     pub fn frame(&self) -> Frame {
         let (sin, cos) = sin_cos(self.heading);
         frame(self.vec2(), cos, -sin)
     }
 
     /// A pose given in this one's frame, in the world's.
-    #[must_use]
     pub fn compose(&self, inner: &Self) -> Self {
         let point = outside(&self.frame(), inner.vec2());
         Self::new(point.x, point.y, self.heading + inner.heading)
     }
 
     /// The pose `ahead` cm further on.
-    #[must_use]
     pub fn ahead(self, ahead: f64) -> Self {
         let (sin, cos) = libm::sincos(self.heading.to_radians());
         Self { x: self.x + ahead * sin, y: self.y + ahead * cos, ..self }
     }
 
     /// The pose after an arc: `way` cm long, turning by `turn` degrees.
-    #[must_use]
     pub fn along_arc(self, way: f64, turn: f64) -> Self {
         let half = turn.to_radians() / 2.0;
         let chord = way * sinc(half);
@@ -57,7 +51,6 @@ impl Pose {
     }
 
     /// The pose that is to this one as `to` is to `from`.
-    #[must_use]
     pub fn moved(self, from: Self, to: Self) -> Self {
         let (sin, cos) = libm::sincos((self.heading - from.heading).to_radians());
         let [x, y] = [to.x - from.x, to.y - from.y];
@@ -69,20 +62,17 @@ impl Pose {
     }
 
     /// Where it is.
-    #[must_use]
     pub fn point(self) -> Point {
         [self.x, self.y]
     }
 
     /// Where it is, as a vector.
-    #[must_use]
     pub fn vec2(self) -> Vec2 {
         Vec2::new(self.x, self.y)
     }
 }
 
 /// An angle between -180 and 180 degrees, the latter included.
-#[must_use]
 pub fn wrapped(degrees: f64) -> f64 {
     if degrees > -180.0 && degrees <= 180.0 {
         return degrees;
@@ -92,7 +82,6 @@ pub fn wrapped(degrees: f64) -> f64 {
 }
 
 /// sin(x) / x: the chord of an arc by its length, for half of its turn in radians.
-#[must_use]
 pub fn sinc(x: f64) -> f64 {
     if x.abs() > SHORT_ARC {
         return libm::sin(x) / x;

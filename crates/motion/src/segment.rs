@@ -38,7 +38,6 @@ pub struct Place {
 
 impl Segment {
     /// The line from one place to another.
-    #[must_use]
     pub fn line(from: Point, to: Point) -> Self {
         let [x, y] = from;
         let start = Pose { x, y, heading: direction(from, to) };
@@ -47,7 +46,6 @@ impl Segment {
 
     /// The arc from a pose: its length in cm, and 1 / radius in 1/cm, clockwise
     /// positive; 0 makes a line.
-    #[must_use]
     pub fn arc(start: Pose, length: f64, curvature: f64) -> Self {
         let to = start.along_arc(length, (length * curvature).to_degrees()).point();
         Self::new(start, length, curvature, to)
@@ -61,7 +59,6 @@ impl Segment {
 
     /// The arc of a radius that touches both lines of a corner, the second of
     /// three places that do not lie on one line.
-    #[must_use]
     pub fn rounding([before, corner, after]: [Point; 3], radius: f64) -> Self {
         let turn = turn_at([before, corner, after]);
         let cut = radius * libm::tan(turn.to_radians().abs() / 2.0);
@@ -75,64 +72,54 @@ impl Segment {
     }
 
     /// Where it starts, and the direction of travel there.
-    #[must_use]
     pub fn start(&self) -> Pose {
         self.start
     }
 
     /// Where it ends, and the direction of travel there.
-    #[must_use]
     pub fn end(&self) -> Pose {
         let [x, y] = self.to;
         Pose { x, y, heading: self.start.heading + self.turn() }
     }
 
     /// Where it starts.
-    #[must_use]
     pub fn from(&self) -> Point {
         self.start.point()
     }
 
     /// Where it ends.
-    #[must_use]
     pub fn to(&self) -> Point {
         self.to
     }
 
     /// In cm.
-    #[must_use]
     pub fn length(&self) -> f64 {
         self.length
     }
 
     /// 1 / radius in 1/cm, clockwise positive; 0 for a line.
-    #[must_use]
     pub fn curvature(&self) -> f64 {
         self.curvature
     }
 
     /// By how much the heading changes: degrees, clockwise positive.
-    #[must_use]
     pub fn turn(&self) -> f64 {
         (self.length * self.curvature).to_degrees()
     }
 
     /// In cm, positive if the center is on the right, negative if on the left.
     /// `None` for a line.
-    #[must_use]
     pub fn radius(&self) -> Option<f64> {
         self.radius
     }
 
     /// The middle of an arc's circle. `None` for a line.
-    #[must_use]
     pub fn center(&self) -> Option<Point> {
         let to_the_right = Pose { heading: self.start.heading + 90.0, ..self.start };
         self.radius().map(|radius| to_the_right.ahead(radius).point())
     }
 
     /// The pose `along` cm from its start.
-    #[must_use]
     pub fn at(&self, along: f64) -> Pose {
         if self.curvature != 0.0 || self.length <= 0.0 {
             return self.start.along_arc(along, (along * self.curvature).to_degrees());
@@ -143,20 +130,17 @@ impl Segment {
     }
 
     /// The direction of travel `along` cm from its start.
-    #[must_use]
     pub fn heading_at(&self, along: f64) -> f64 {
         self.start.heading + (along * self.curvature).to_degrees()
     }
 
     /// The same with another length, which may be longer.
-    #[must_use]
     pub fn with_length(&self, length: f64) -> Self {
         Self { length, to: self.at(length).point(), ..*self }
     }
 
     /// Where a point is with respect to it. `near` is a guess of how far along, which distinguishes
     /// the turns of an arc.
-    #[must_use]
     pub fn locate(&self, [x, y]: Point, near: f64) -> Place {
         let [sin, cos] = self.direction;
         let (dx, dy) = (x - self.start.x, y - self.start.y);
@@ -179,7 +163,6 @@ impl Segment {
 /// A path through points, its corners rounded with a radius, or with less where
 /// the legs are too short for it. Each element of the answer is a piece without
 /// a corner: those that are too sharp to be rounded remain.
-#[must_use]
 pub fn rounded(points: &[Point], radius: f64) -> Vec<Vec<Segment>> {
     let mut points = points.to_vec();
     points.dedup_by(|a, b| distance(*a, *b) < 1e-3);

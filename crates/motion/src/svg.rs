@@ -1,13 +1,12 @@
 //! Pictures of the plane.
 use crate::plane::{Bounds, Point};
-use std::fmt::{Arguments, Display, Write};
+use std::fmt::{Arguments, Write};
 
 /// A picture as SVG: one unit a centimeter, y up, four pixels a centimeter.
 pub struct Svg(String);
 
 impl Svg {
     /// A picture of what is within a box; `style` are attributes of all of it.
-    #[must_use]
     pub fn new(frame: &Bounds, style: &str) -> Self {
         let (Bounds { low: [left, _], high: [_, top] }, [width, height]) = (frame, frame.size());
         Self(format!(
@@ -27,32 +26,26 @@ impl Svg {
     }
 
     /// Adds a rectangle: `name` are the attributes before its corner, `style` those after its size.
-    pub fn rectangle(
-        &mut self,
-        name: &str,
-        [x, y]: Point,
-        [width, height]: [f64; 2],
-        style: impl Display,
-    ) {
+    pub fn rectangle(&mut self, name: &str, [x, y]: Point, [width, height]: [f64; 2], style: &str) {
         self.add(format_args!(
             "<rect{name} x=\"{x:.2}\" y=\"{y:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" {style}/>"
         ));
     }
 
     /// Fills a box.
-    pub fn fill(&mut self, frame: &Bounds, color: impl Display) {
-        self.rectangle("", frame.low, frame.size(), format_args!("fill=\"{color}\""));
+    pub fn fill(&mut self, frame: &Bounds, color: &str) {
+        self.rectangle("", frame.low, frame.size(), &format!("fill=\"{color}\""));
     }
 
     /// Adds a circle, with attributes as those of a rectangle.
-    pub fn circle(&mut self, name: &str, [x, y]: Point, radius: impl Display, style: impl Display) {
+    pub fn circle(&mut self, name: &str, [x, y]: Point, radius: &str, style: &str) {
         self.add(format_args!(
             "<circle{name} cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\" {style}/>"
         ));
     }
 
     /// Adds a straight line, with attributes as those of a rectangle.
-    pub fn line(&mut self, name: &str, [[x1, y1], [x2, y2]]: [Point; 2], style: impl Display) {
+    pub fn line(&mut self, name: &str, [[x1, y1], [x2, y2]]: [Point; 2], style: &str) {
         self.add(format_args!(
             "<line{name} x1=\"{x1:.2}\" y1=\"{y1:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" {style}/>"
         ));
@@ -65,7 +58,6 @@ impl Svg {
     }
 
     /// The whole text.
-    #[must_use]
     pub fn into_text(mut self) -> String {
         self.0.push_str("</g>\n</svg>\n");
         self.0

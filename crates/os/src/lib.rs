@@ -33,7 +33,6 @@ pub fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 /// What the kernel says of an error, without the number that Rust adds.
-#[must_use]
 pub fn words(error: &(dyn Error + 'static)) -> String {
     #[cfg(not(unix))]
     if let Some(errno) = error.downcast_ref().and_then(Errno::from_io_error) {

@@ -52,7 +52,6 @@ errnos! {
 
 impl Errno {
     /// The symbol, such as `EINVAL`.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self.describe() {
             Some((name, _)) => name,

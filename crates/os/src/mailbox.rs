@@ -79,9 +79,6 @@ unsafe impl Send for Mailbox {}
 unsafe impl Sync for Mailbox {}
 
 /// Waits until there is something to read, for so long at the most; whether there is.
-///
-/// # Errors
-/// The system's.
 pub fn readable(stream: &UnixStream, within: Duration) -> io::Result<bool> {
     let within = Timespec::try_from(within).map_err(io::Error::other)?;
     match poll(&mut [PollFd::new(stream, PollFlags::IN)], Some(&within)) {
@@ -114,9 +111,6 @@ impl Mailbox {
     }
 
     /// Sends some bytes, and with them this mailbox.
-    ///
-    /// # Errors
-    /// The system's.
     pub fn send(&self, stream: &UnixStream, bytes: &[u8]) -> io::Result<()> {
         let mut space = [MaybeUninit::uninit(); rustix::cmsg_space!(ScmRights(1))];
         let mut with = SendAncillaryBuffer::new(&mut space);
@@ -163,7 +157,6 @@ impl Mailbox {
 
     /// Leaves a letter for the other side; whether that sleeps, and is to be woken. `None` if the
     /// letter is too long.
-    #[must_use]
     pub fn post(&self, from: Side, letter: &[u8]) -> Option<bool> {
         let length = u32::try_from(letter.len()).ok()?;
         if letter.len() > 4 * ROOM {
@@ -186,7 +179,6 @@ impl Mailbox {
 
     /// Looks for a letter of the other side for a short while. If there is none, this side sleeps
     /// from now on, and the other one will know.
-    #[must_use]
     pub fn wait(&self, to: Side) -> bool {
         let shy = self.shy.load(Ordering::Relaxed);
         self.shy.store(shy.saturating_sub(1), Ordering::Relaxed);
@@ -208,7 +200,6 @@ impl Mailbox {
     }
 
     /// A copy of the letter that is there, or of as much as there is room for.
-    #[must_use]
     pub fn letter(&self) -> Vec<u8> {
         let length = self.word(LENGTH).load(Ordering::Relaxed) as usize;
         let length = length.min(4 * ROOM);

@@ -25,7 +25,6 @@ pub fn say_to_page(text: &str) {
 }
 
 /// The next line of the page, if there is one.
-#[must_use]
 pub fn hear() -> Option<String> {
     let mut bytes = vec![0; heard()];
     if bytes.is_empty() {
@@ -42,19 +41,16 @@ pub struct Instant(Duration);
 
 impl Instant {
     /// This moment.
-    #[must_use]
     pub fn now() -> Self {
         Self(Duration::from_secs_f64(now_ms().max(0.0) / 1000.0))
     }
 
     /// The time since then.
-    #[must_use]
     pub fn elapsed(&self) -> Duration {
         Self::now() - *self
     }
 
     /// The time from an earlier moment to this one, if that is earlier.
-    #[must_use]
     pub fn saturating_duration_since(&self, earlier: Self) -> Duration {
         self.0.saturating_sub(earlier.0)
     }
@@ -77,7 +73,6 @@ impl Sub for Instant {
 }
 
 /// There is one process, and it has no number.
-#[must_use]
 pub fn process_id() -> u32 {
     0
 }
@@ -119,7 +114,6 @@ renamed! {
 
 impl Errno {
     /// The number of an error of input or output, if it has one.
-    #[must_use]
     pub fn from_io_error(error: &io::Error) -> Option<Self> {
         error.raw_os_error().map(Self)
     }

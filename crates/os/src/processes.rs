@@ -25,7 +25,6 @@ const CHILDREN: &str = "/proc/thread-self/children";
 const PROCESSES: &str = "/proc";
 
 /// How this process and all that descend from it are at this moment; `None` if it is not there.
-#[must_use]
 pub fn usage(process: u32) -> Option<Usage> {
     let mut text = [0; 4096];
     let parents = if Path::new(CHILDREN).exists() { Vec::new() } else { parents(&mut text) };
@@ -58,7 +57,6 @@ pub fn usage(process: u32) -> Option<Usage> {
 
 /// The state of a thread, a letter such as `S`, and how often it has left its processor, from
 /// the text of its file `status`.
-#[must_use]
 pub fn state_and_switches(status: &str) -> (u8, u64) {
     let value = |name| status.lines().find_map(|line| line.strip_prefix(name)).map(str::trim);
     let count = |name| value(name).and_then(|count| count.parse::<u64>().ok()).unwrap_or(0);

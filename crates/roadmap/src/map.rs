@@ -106,7 +106,6 @@ impl Obstacle {
     }
 
     /// The corners, counter-clockwise, of one that has some.
-    #[must_use]
     pub fn corners(&self) -> Option<&[Point]> {
         match &self.0 {
             Shape::Polygon(corners) => Some(corners),
@@ -115,7 +114,6 @@ impl Obstacle {
     }
 
     /// Center and radius of a round one.
-    #[must_use]
     pub fn round(&self) -> Option<(Point, f64)> {
         match self.0 {
             Shape::Circle { center, radius } => Some((center, radius)),
@@ -187,13 +185,11 @@ impl Map {
     }
 
     /// The obstacles, in the order in which they were added.
-    #[must_use]
     pub fn obstacles(&self) -> &[Obstacle] {
         &self.obstacles
     }
 
     /// The rectangle that the robot does not leave.
-    #[must_use]
     pub fn bounds(&self) -> Option<&Bounds> {
         self.bounds.as_ref()
     }
@@ -204,7 +200,6 @@ impl Map {
 
     /// How far a point is from the nearest obstacle; 0 inside of one and
     /// outside of the bounds, infinite if there is no obstacle.
-    #[must_use]
     pub fn clearance(&self, at: Point) -> f64 {
         if self.covers(at) {
             return 0.0;

@@ -10,7 +10,6 @@ const MARGIN: f64 = 10.0;
 /// An SVG picture, one unit a centimeter, y up: the obstacles, each with what
 /// must be kept free around it, the lines of the roadmap that were looked at,
 /// and the way.
-#[must_use]
 pub fn svg(map: &Map, found: &Solution, keep: f64) -> String {
     let ends = [found.raw[0], found.raw[found.raw.len() - 1]];
     let frame = map.extent(ends, 0.0).with_room(MARGIN);
@@ -24,11 +23,12 @@ pub fn svg(map: &Map, found: &Solution, keep: f64) -> String {
         svg.bounds(bounds);
     }
     for line in &found.roadmap {
-        svg.line(" class=\"roadmap\"", *line, "stroke=\"#9bd\" stroke-width=\"0.3\"");
+        let style = "stroke=\"#9bd\" stroke-width=\"0.3\"";
+        svg.line(" class=\"roadmap\"", *line, style);
     }
     draw_way(&mut svg, found);
     for (end, color) in ends.into_iter().zip(["#2a2", "#d33"]) {
-        svg.circle("", end, 2, format_args!("fill=\"{color}\""));
+        svg.circle("", end, "2", &format!("fill=\"{color}\""));
     }
     svg.into_text()
 }
@@ -41,7 +41,7 @@ fn draw_obstacles(svg: &mut Svg, map: &Map, style: &str) {
                 svg.add(format_args!("<polygon points=\"{corners}\" {style}/>"));
             }
             Shape::Circle { center, radius } => {
-                svg.circle("", *center, format_args!("{radius:.2}"), style);
+                svg.circle("", *center, &format!("{radius:.2}"), style);
             }
         }
     }

@@ -166,7 +166,6 @@ pub struct Views {
 
 impl Views {
     /// No looks yet, of a robot with a round hull of a radius in cm.
-    #[must_use]
     pub fn new(hull: f64) -> Views {
         let free_cos = libm::cos(FREE_HALF_ANGLE.to_radians());
         Views {
@@ -180,7 +179,6 @@ impl Views {
     }
 
     /// The radius of the hull, in cm.
-    #[must_use]
     pub fn hull(&self) -> f64 {
         self.hull
     }
@@ -253,7 +251,6 @@ impl Views {
     }
 
     /// True if nothing stands at a place.
-    #[must_use]
     pub fn is_free(&self, at: Point) -> bool {
         self.was_at(at, self.hull) || self.shown_free(at)
     }
@@ -268,7 +265,6 @@ impl Views {
 
     /// How far the robot can follow a path and stay, with a margin in cm, where
     /// nothing stands.
-    #[must_use]
     pub fn safe(&self, path: &Path, margin: f64) -> Safe {
         let mut safe = Safe { way: 0.0, unseen: None };
         for (way, pose) in path.samples(STEP) {
@@ -288,7 +284,6 @@ impl Views {
     }
 
     /// The obstacles that have been seen and that the map lacks.
-    #[must_use]
     pub fn obstacles(&mut self, known: &Map) -> Vec<Obstacle> {
         self.obstacles_within(FAR, known)
     }

@@ -64,19 +64,16 @@ pub fn lift(reason: Reason) {
 }
 
 /// Whether motors may not be started now.
-#[must_use]
 pub fn is_set() -> bool {
     REASONS.load(Ordering::SeqCst) != 0
 }
 
 /// Whether it is set for that reason.
-#[must_use]
 pub fn is_set_as(reason: Reason) -> bool {
     REASONS.load(Ordering::SeqCst) & reason as u8 != 0
 }
 
 /// Whether the program is about to end.
-#[must_use]
 pub fn is_ending() -> bool {
     is_set_as(Reason::Ending) || is_set_as(Reason::Halting)
 }

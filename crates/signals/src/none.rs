@@ -12,9 +12,6 @@ pub struct Asked {
 }
 
 /// No signal arrives.
-///
-/// # Errors
-/// None.
 pub fn watch(_asked: Asked) -> io::Result<()> {
     Ok(())
 }

@@ -46,9 +46,6 @@ impl Simulation {
     }
 
     /// The names in the directory of a path, with their inodes.
-    ///
-    /// # Errors
-    /// As [`Machine::read_dir`].
     pub fn list(&self, path: &str) -> Result<Vec<(String, NodeId)>, Errno> {
         let Some(answer) =
             self.elsewhere(Question::of(Kind::List, path.as_bytes()), Duration::ZERO)
@@ -64,9 +61,6 @@ impl Simulation {
     }
 
     /// Opens an attribute file.
-    ///
-    /// # Errors
-    /// As [`Machine::open`].
     pub fn open(&self, path: &str, access: Access) -> Result<NodeId, Errno> {
         let kind = match access {
             Access::WriteOnly => Kind::OpenToWrite,
@@ -76,9 +70,6 @@ impl Simulation {
     }
 
     /// Reads an attribute file from an offset on. On the virtual clock it takes some time.
-    ///
-    /// # Errors
-    /// As [`Machine::read_at`].
     pub fn read(&self, node: NodeId, offset: usize, buffer: &mut [u8]) -> Result<usize, Errno> {
         let question = Question {
             number: node.0,
@@ -95,9 +86,6 @@ impl Simulation {
 
     /// Writes to an attribute file from an offset on; also the moment of it. On the virtual clock
     /// it takes some time, and what blocks longer than that is for the caller to wait.
-    ///
-    /// # Errors
-    /// As [`Machine::write_at`].
     pub fn write(
         &self,
         node: NodeId,
@@ -117,9 +105,6 @@ impl Simulation {
     }
 
     /// Opens a device file.
-    ///
-    /// # Errors
-    /// As [`DevDescriptor::open`].
     pub fn open_device(&self, path: &str) -> Result<OpenDevice, Errno> {
         let far = self.elsewhere(Question::of(Kind::OpenDevice, path.as_bytes()), Duration::ZERO);
         let (place, length) = if let Some(answer) = far {
@@ -135,9 +120,6 @@ impl Simulation {
     }
 
     /// Reads what comes next. On the virtual clock it takes some time.
-    ///
-    /// # Errors
-    /// As [`DevDescriptor::read`].
     pub fn read_device(&self, open: &mut OpenDevice, buffer: &mut [u8]) -> Result<usize, Errno> {
         let length = match &mut open.place {
             Place::Here(device) => device.read(&self.access(READ_TAKES), open.offset, buffer)?,
@@ -157,9 +139,6 @@ impl Simulation {
 
     /// Writes behind what was written before; how many bytes were taken. On the virtual clock it
     /// takes some time.
-    ///
-    /// # Errors
-    /// As [`DevDescriptor::write`].
     pub fn write_device(&self, open: &mut OpenDevice, bytes: &[u8]) -> Result<usize, Errno> {
         let length = match &open.place {
             Place::Here(device) => {
@@ -180,9 +159,6 @@ impl Simulation {
     }
 
     /// The state that an ioctl reads. On the virtual clock it takes some time.
-    ///
-    /// # Errors
-    /// As [`DevDescriptor::ioctl`].
     pub fn ioctl(&self, open: &OpenDevice, command: u32) -> Result<Vec<u8>, Errno> {
         match &open.place {
             Place::Here(device) => {
@@ -218,7 +194,6 @@ impl Simulation {
     }
 
     /// The volume, in percent.
-    #[must_use]
     pub fn volume(&self) -> u8 {
         u8::try_from(self.sound(Question::of(Kind::Volume, &[]))).unwrap_or(0)
     }
@@ -235,7 +210,6 @@ impl Simulation {
 
 impl OpenDevice {
     /// How many bytes there are; event devices have no end.
-    #[must_use]
     pub fn length(&self) -> Option<u64> {
         self.length
     }

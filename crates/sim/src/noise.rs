@@ -22,7 +22,6 @@ impl Noise {
     pub const NONE: Noise = Noise { sigma: 0.0, bias: 0.0 };
 
     /// Plausible errors of a device of this driver.
-    #[must_use]
     pub fn typical(driver_name: &str) -> Noise {
         let (sigma, bias) = match driver_name {
             "lego-ev3-us" => (0.2, 0.0),

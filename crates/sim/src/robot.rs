@@ -45,7 +45,6 @@ pub struct Wheels {
 
 impl Wheels {
     /// The ports of their motors, the left one first.
-    #[must_use]
     pub fn ports(&self) -> [Port; 2] {
         [self.left.port, self.right.port]
     }
@@ -103,7 +102,6 @@ pub struct RobotSpec {
 impl RobotSpec {
     /// Gives every device the errors that such a device might plausibly have, unless its own
     /// are known.
-    #[must_use]
     pub fn with_typical_noise(mut self) -> RobotSpec {
         for motor in &mut self.motors {
             motor.noise.get_or_insert_with(|| Noise::typical(&motor.driver));

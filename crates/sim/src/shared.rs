@@ -73,7 +73,6 @@ const LATE: Duration = Duration::from_millis(100);
 
 impl Shared {
     /// Takes a machine in.
-    #[must_use]
     pub fn new(machine: Machine) -> Shared {
         Shared {
             machine: Mutex::new(machine),

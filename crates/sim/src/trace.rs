@@ -155,7 +155,6 @@ impl Trace {
     }
 
     /// The newest events, oldest first: 4096 writes, 4096 reads, and 4096 others.
-    #[must_use]
     pub fn events(&self) -> Vec<Event> {
         let logs = [&self.written, &self.read, &self.other];
         let mut events: Vec<_> = logs.into_iter().flat_map(Log::iter).collect();
@@ -169,7 +168,6 @@ impl Trace {
     }
 
     /// How many collisions there were in all.
-    #[must_use]
     pub fn collision_count(&self) -> u32 {
         self.collision_count
     }

@@ -381,7 +381,6 @@ unsafe fn is_collector(id: term_t) -> bool {
 }
 
 /// The value of a flag of Prolog, as this thread of Prolog has it, if it is an integer.
-#[must_use]
 pub fn integer_flag(name: &CStr) -> Option<i64> {
     let mut value = 0_i64;
     // Safety: an integer flag is written as 64 bits. The atom has a reference for that long.
@@ -394,7 +393,6 @@ pub fn integer_flag(name: &CStr) -> Option<i64> {
 }
 
 /// The number of this thread of Prolog.
-#[must_use]
 pub fn this_thread() -> i32 {
     // Safety: asks only.
     unsafe { PL_thread_self() }
@@ -402,7 +400,6 @@ pub fn this_thread() -> i32 {
 
 /// Whether Prolog has threads besides the one that asks, which is one of Prolog's, and the one
 /// that collects its garbage.
-#[must_use]
 pub fn has_other_threads() -> bool {
     /// The highest number of a thread so far. Prolog gives a new thread a free one, or the next.
     static HIGHEST: AtomicI32 = AtomicI32::new(1);

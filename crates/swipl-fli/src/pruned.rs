@@ -67,7 +67,6 @@ impl Arguments {
 
     /// The atom that it is, by its handle.
     #[inline]
-    #[must_use]
     pub fn atom(&self, number: usize) -> Option<atom_t> {
         // Safety: Prolog has passed that term to this thread.
         unsafe { atom_in(self.term(number)) }
@@ -75,7 +74,6 @@ impl Arguments {
 
     /// Whether it is unbound.
     #[inline]
-    #[must_use]
     pub fn is_variable(&self, number: usize) -> bool {
         // Safety: as above.
         unsafe { PL_is_variable(self.term(number)) != 0 }
@@ -83,7 +81,6 @@ impl Arguments {
 
     /// The number that it is, if a float has it.
     #[inline]
-    #[must_use]
     pub fn float(&self, number: usize) -> Option<f64> {
         let mut float = 0.0;
         // Safety: as above.
@@ -92,7 +89,6 @@ impl Arguments {
 
     /// Unifies it with an integer.
     #[inline]
-    #[must_use]
     pub fn unify_integer(&self, number: usize, integer: i64) -> bool {
         // Safety: as above.
         unsafe { PL_unify_int64(self.term(number), integer) != 0 }
@@ -100,7 +96,6 @@ impl Arguments {
 
     /// Unifies it with a float.
     #[inline]
-    #[must_use]
     pub fn unify_float(&self, number: usize, float: f64) -> bool {
         // Safety: as above.
         unsafe { PL_unify_float(self.term(number), float) != 0 }
@@ -108,7 +103,6 @@ impl Arguments {
 
     /// Unifies it with an atom that is there for good.
     #[inline]
-    #[must_use]
     pub fn unify_atom(&self, number: usize, atom: atom_t) -> bool {
         // Safety: as above.
         unsafe { PL_unify_atom(self.term(number), atom) != 0 }

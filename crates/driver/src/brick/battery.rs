@@ -63,44 +63,29 @@ const CHEMISTRIES: [Chemistry; 3] = [
 ];
 
 /// The battery; `None` where the board has none, or does not show it.
-///
-/// # Errors
-/// The kernel's.
 pub fn battery(registry: &Registry) -> Result<Option<Arc<Device>>> {
     Ok(registry.all(Class::Battery)?.first().cloned())
 }
 
 /// The voltage, in volts.
-///
-/// # Errors
-/// The kernel's.
 pub fn volts(battery: &Device) -> Result<f64> {
     battery.number("voltage_now").map(from_micros)
 }
 
 /// The current that is drawn, in amperes; `None` on boards that do not measure
 /// it.
-///
-/// # Errors
-/// The kernel's.
 pub fn amperes(battery: &Device) -> Result<Option<f64>> {
     Ok(if_there(battery.number("current_now"))?.map(from_micros))
 }
 
 /// The chemistry by the kernel's word: `Li-ion`, `NiMH`, or `Unknown`, which are
 /// AA cells. `None` on boards that do not report it.
-///
-/// # Errors
-/// The kernel's.
 pub fn chemistry(battery: &Device) -> Result<Option<String>> {
     if_there(battery.text("technology"))
 }
 
 /// The remaining charge in percent, by the voltage and the chemistry; `None` where
 /// the chemistry is not known.
-///
-/// # Errors
-/// The kernel's.
 pub fn percent(battery: &Device) -> Result<Option<i64>> {
     let chemistry = chemistry(battery)?;
     let known = CHEMISTRIES.iter().find(|known| chemistry.as_deref() == Some(known.name));

@@ -62,7 +62,6 @@ impl Button {
         [Self::Up, Self::Down, Self::Left, Self::Right, Self::Enter, Self::Back];
 
     /// The word programs see.
-    #[must_use]
     pub fn word(self) -> &'static str {
         match self {
             Self::Up => "up",
@@ -75,13 +74,11 @@ impl Button {
     }
 
     /// The button of that name.
-    #[must_use]
     pub fn named(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|button| button.word() == word)
     }
 
     /// The kernel's code, from linux/input-event-codes.h.
-    #[must_use]
     pub fn code(self) -> u16 {
         match self {
             Self::Up => 103,
@@ -158,9 +155,6 @@ pub struct Events {
 
 impl Events {
     /// Those from now on; `None` where there are no buttons.
-    ///
-    /// # Errors
-    /// The kernel's.
     pub fn from_now(dev: Arc<dyn Devfs>) -> Result<Option<Self>> {
         let Some((stream, path)) = open_first(&*dev, &DEVICES, Access::Read)? else {
             return Ok(None);
@@ -173,7 +167,6 @@ impl Events {
     /// if there was none in that time.
     ///
     /// The errors are the kernel's.
-    #[must_use]
     pub fn until_next(
         self: &Arc<Self>,
         button: Option<Button>,
@@ -193,7 +186,6 @@ impl Events {
     /// the same event each time: what was read is kept.
     ///
     /// The errors are the kernel's.
-    #[must_use]
     pub fn until_nth(self: &Arc<Self>, index: usize) -> AnyWait<'static, Option<Event>> {
         self.until(None, move |queue| queue.events.get(index).copied())
     }

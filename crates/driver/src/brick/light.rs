@@ -67,7 +67,6 @@ impl Color {
     }
 
     /// The color of that name.
-    #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         COLORS.iter().find(|(word, _)| *word == name).map(|(word, _)| Self::Named(word))
     }
@@ -91,9 +90,6 @@ pub(crate) fn on_port(registry: &Registry, port: &str) -> Result<Option<Arc<Devi
 }
 
 /// All lights: left, right, then those on ports in the order of ports.
-///
-/// # Errors
-/// The kernel's.
 pub fn lights(registry: &Registry) -> Result<Vec<Light>> {
     registry.retry_after_relisting(|| present_lights(registry))
 }
@@ -125,30 +121,22 @@ fn present_lights(registry: &Registry) -> Result<Vec<Light>> {
 }
 
 /// The light of that name, `left`, `right` or a port; `None` if there is no such light.
-///
-/// # Errors
-/// The kernel's.
 pub fn find(registry: &Registry, name: &str) -> Result<Option<Light>> {
     Ok(lights(registry)?.into_iter().find(|light| light.is_called(name)))
 }
 
 impl Light {
     /// `left`, `right`, or the port by its short name.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
     /// Whether that is its name, a port in either spelling.
-    #[must_use]
     pub fn is_called(&self, name: &str) -> bool {
         self.name == port_name::short(name)
     }
 
     /// The color it shows now. Of one that blinks that may be any moment's.
-    ///
-    /// # Errors
-    /// The kernel's.
     pub fn color(&self) -> Result<Color> {
         let mut levels = Vec::new();
         for (hue, led) in &self.leds {
@@ -191,9 +179,6 @@ impl Light {
     }
 
     /// Its trigger, `none` if nothing switches it.
-    ///
-    /// # Errors
-    /// The kernel's.
     pub fn trigger(&self) -> Result<String> {
         for (_, led) in &self.leds {
             let trigger = trigger(led)?;
@@ -205,9 +190,6 @@ impl Light {
     }
 
     /// The triggers it may have.
-    ///
-    /// # Errors
-    /// The kernel's.
     pub fn triggers(&self) -> Result<Vec<String>> {
         let Some((_, led)) = self.leds.first() else { return Ok(Vec::new()) };
         let text = led.text("trigger")?;
@@ -231,9 +213,6 @@ impl Light {
 
     /// How long it is on and off while it blinks, in milliseconds; `None` if it
     /// does not.
-    ///
-    /// # Errors
-    /// The kernel's.
     pub fn delays(&self) -> Result<Option<(i64, i64)>> {
         for (_, led) in &self.leds {
             if trigger(led)? == TIMER {
@@ -295,9 +274,6 @@ pub fn set_trigger(
 
 /// Makes a light blink, in the color it shows: `on` and `off` are in
 /// milliseconds. `None` where there is no such light.
-///
-/// # Errors
-/// As [`set_trigger`].
 pub fn blink(
     registry: &Registry,
     name: &str,

@@ -47,9 +47,6 @@ fn made_by(mode: &str) -> Option<Class> {
 }
 
 /// The devices at a port, or at all ports in their order, of whichever class.
-///
-/// # Errors
-/// The kernel's.
 pub fn devices_at(registry: &Registry, port: Option<&str>) -> Result<Vec<Arc<Device>>> {
     let mut all = Vec::new();
     for class in ON_PORTS {

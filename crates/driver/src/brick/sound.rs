@@ -84,9 +84,6 @@ impl Sound {
 
     /// Starts to play tones one after the other, in the place of all other sounds;
     /// `None` where there is no speaker.
-    ///
-    /// # Errors
-    /// As [`play_tones`](Self::play_tones).
     pub fn begin_tones(
         &'static self,
         tree: &dyn Sysfs,
@@ -229,9 +226,6 @@ impl Sound {
     }
 
     /// Ends every sound that this program makes.
-    ///
-    /// # Errors
-    /// The kernel's.
     pub fn stop(&self, dev: &dyn Devfs) -> Result<()> {
         self.stops.fetch_add(1, Ordering::SeqCst);
         *locked(&self.in_background) = Arc::default();

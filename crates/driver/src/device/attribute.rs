@@ -20,9 +20,6 @@ pub(super) const LINE: usize = 256;
 const WRITTEN_WITHIN_MS: u32 = 20;
 
 /// Reads the text of any file, without keeping it open.
-///
-/// # Errors
-/// As [`Device::text`](crate::device::Device::text).
 pub fn read_file(tree: &dyn Sysfs, path: &Path) -> Result<String> {
     let node = open(tree, path, Access::Read)?;
     let mut buffer = [0; PAGE + 1];
@@ -30,18 +27,12 @@ pub fn read_file(tree: &dyn Sysfs, path: &Path) -> Result<String> {
 }
 
 /// Writes any file, which must exist, without keeping it open.
-///
-/// # Errors
-/// As [`Device::write`](crate::device::Device::write).
 pub fn write_file(tree: &dyn Sysfs, path: &Path, text: &str) -> Result<()> {
     let node = open(tree, path, Access::Write)?;
     write_line(&*node, path, text)
 }
 
 /// The value in a file: a number if it is one.
-///
-/// # Errors
-/// As [`read_file`].
 pub fn read_value(tree: &dyn Sysfs, path: &Path) -> Result<Value> {
     read_file(tree, path).map(Value::parse)
 }

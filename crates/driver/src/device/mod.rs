@@ -135,38 +135,32 @@ impl Device {
     }
 
     /// The kind of device.
-    #[must_use]
     pub fn class(&self) -> Class {
         self.class
     }
 
     /// The port it is plugged into, by its short name: `outA`. Of a light or a
     /// battery, the name of its directory.
-    #[must_use]
     pub fn port(&self) -> &str {
         &self.port
     }
 
     /// Its type: `lego-ev3-l-motor`.
-    #[must_use]
     pub fn driver(&self) -> &str {
         &self.driver
     }
 
     /// Its directory.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
     /// The tree it is in, whose clock it lives by.
-    #[must_use]
     pub fn tree(&self) -> &dyn Sysfs {
         &*self.tree
     }
 
     /// Its description for programs.
-    #[must_use]
     pub fn detected(&self) -> Detected {
         Detected {
             port: self.port().to_owned(),
@@ -199,17 +193,11 @@ impl Device {
     /// Fails as a read of an unplugged device does, where the reads themselves
     /// do not notice (see [`AttributeFile::check_present`]). The result is trusted
     /// for [`PRESENT_FOR_US`].
-    ///
-    /// # Errors
-    /// ENODEV.
     pub fn check_present(&self) -> Result<()> {
         if self.presence.is_plain() { self.check_present_at(self.tree.now()) } else { Ok(()) }
     }
 
     /// The same, when it is that time.
-    ///
-    /// # Errors
-    /// ENODEV.
     pub fn check_present_at(&self, now: Duration) -> Result<()> {
         if !self.presence.is_plain() {
             return Ok(());
@@ -327,18 +315,12 @@ impl Device {
 
     /// An integer that cannot change while the device is plugged in: read
     /// once.
-    ///
-    /// # Errors
-    /// As [`number`](Self::number).
     pub fn constant(&self, attribute: &'static str) -> Result<i64> {
         self.constant_in(attribute, "")
     }
 
     /// An integer that depends on nothing but the sensor's mode: read once for
     /// each.
-    ///
-    /// # Errors
-    /// As [`number`](Self::number).
     pub fn constant_in(&self, attribute: &'static str, mode: &str) -> Result<i64> {
         if let Some(value) = self.known_in(attribute, mode) {
             return Ok(value);
@@ -363,9 +345,6 @@ impl Device {
     }
 
     /// Whether an attribute only stores what is written to it.
-    ///
-    /// # Errors
-    /// The kernel's.
     pub(crate) fn is_plain(&self, attribute: &str) -> Result<bool> {
         self.attribute(attribute).is_plain(self.tree())
     }
@@ -387,9 +366,6 @@ impl Device {
     }
 
     /// Writes an attribute that is no text, from an offset on.
-    ///
-    /// # Errors
-    /// The kernel's.
     pub(crate) fn write_at(&self, attribute: &str, bytes: &[u8], offset: u8) -> Result<()> {
         self.attribute(attribute).write_at(self.tree(), bytes, offset)
     }
@@ -470,9 +446,6 @@ impl Device {
     }
 
     /// Writes an integer.
-    ///
-    /// # Errors
-    /// As [`write`](Self::write).
     pub fn write_number(&self, attribute: &str, number: i64) -> Result<()> {
         let mut buffer = itoa::Buffer::new();
         self.attribute(attribute).write(self.tree(), buffer.format(number))?;
@@ -481,7 +454,6 @@ impl Device {
     }
 
     /// How many times a motor turns while what it drives turns once.
-    #[must_use]
     pub fn gear(&self) -> f64 {
         self.gears.of(&self.port)
     }

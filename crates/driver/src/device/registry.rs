@@ -84,7 +84,6 @@ fn end(port: &str) -> u64 {
 
 impl Registry {
     /// The devices in a tree. Nothing is read yet.
-    #[must_use]
     pub fn new(tree: Arc<dyn Sysfs>) -> Self {
         Self {
             tree,
@@ -97,13 +96,11 @@ impl Registry {
     }
 
     /// The tree they are in.
-    #[must_use]
     pub fn tree(&self) -> &dyn Sysfs {
         &*self.tree
     }
 
     /// What the program has done in the tree.
-    #[must_use]
     pub fn journal(&self) -> &Journal {
         &self.journal
     }
@@ -128,7 +125,6 @@ impl Registry {
 
     /// Whether a listing is still believed at this time: then whatever was found by it is
     /// found again.
-    #[must_use]
     pub fn holds(&self, listed: Listed, now: Duration) -> bool {
         listed.changes == self.changes.load(Ordering::Acquire) && is_fresh(listed.made, now)
     }
@@ -140,9 +136,6 @@ impl Registry {
 
     /// The device at a port, which may be spelled either way. A sensor on the
     /// I2C bus is found by its socket, too.
-    ///
-    /// # Errors
-    /// As [`all`](Self::all).
     pub fn find(&self, class: Class, port: &str) -> Result<Option<Arc<Device>>> {
         let port = port_name::short(port);
         let mut listing = self.listing(class);
@@ -161,9 +154,6 @@ impl Registry {
     }
 
     /// Whether that very device is still plugged in.
-    ///
-    /// # Errors
-    /// As [`all`](Self::all).
     pub fn has(&self, device: &Device) -> Result<bool> {
         let present = self.find(device.class(), device.port())?;
         Ok(present.is_some_and(|present| std::ptr::eq(Arc::as_ptr(&present), device)))

@@ -18,7 +18,6 @@ pub struct Sleep {
 
 impl Sleep {
     /// For some time from now on.
-    #[must_use]
     pub fn new(registry: Arc<Registry>, time: Duration) -> Slices<Self> {
         let end = registry.tree().now().saturating_add(time);
         Slices::new(Self { registry, end })

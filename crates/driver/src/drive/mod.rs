@@ -78,7 +78,6 @@ pub struct Drive {
 
 impl Drive {
     /// The drive of a robot whose devices are in `registry`. A registry has one drive.
-    #[must_use]
     pub fn new(registry: Arc<Registry>, robot: &Robot) -> Arc<Self> {
         let drive = Arc::new_cyclic(|this| Self {
             this: Weak::clone(this),
@@ -102,9 +101,6 @@ impl Drive {
     }
 
     /// Starts counting, if the robot is there.
-    ///
-    /// # Errors
-    /// The kernel's.
     pub fn start(&self) -> Result<bool> {
         let is_there = self.look()?.is_some();
         if is_there {
@@ -114,18 +110,12 @@ impl Drive {
     }
 
     /// Where the robot is; `None` where a motor is absent.
-    ///
-    /// # Errors
-    /// The kernel's.
     pub fn pose(&self) -> Result<Option<Pose>> {
         Ok(self.look()?.map(|inner| inner.pose()))
     }
 
     /// Where wheels and gyro have brought it since the start, whatever poses have been set;
     /// `None` where a motor is absent.
-    ///
-    /// # Errors
-    /// The kernel's.
     pub fn rolled(&self) -> Result<Option<Pose>> {
         Ok(self.look()?.map(|inner| inner.rolled()))
     }
@@ -133,9 +123,6 @@ impl Drive {
     /// Corrects the pose of the robot, by a map for one. A motion under way goes on, and steers
     /// back to its course; where that would be too far away, nothing changes. `false` then, and
     /// where a motor is absent.
-    ///
-    /// # Errors
-    /// The kernel's.
     pub fn correct_pose(&self, pose: Pose) -> Result<bool> {
         let Some(mut inner) = self.look()? else {
             return Ok(false);
@@ -151,9 +138,6 @@ impl Drive {
     }
 
     /// Sets the pose of the robot; `false` where a motor is absent.
-    ///
-    /// # Errors
-    /// The kernel's.
     pub fn set_pose(&self, pose: Pose) -> Result<bool> {
         let Some(mut inner) = self.look()? else {
             return Ok(false);
@@ -166,9 +150,6 @@ impl Drive {
     }
 
     /// Covariance of the pose.
-    ///
-    /// # Errors
-    /// The kernel's.
     pub fn uncertainty(&self) -> Result<Option<[[f64; 3]; 3]>> {
         Ok(self.look()?.map(|inner| inner.uncertainty()))
     }
@@ -176,7 +157,6 @@ impl Drive {
     /// What is known without looking: the pose, its covariance, and the way after a moment, with
     /// the last point before. `None` while another thread is at it. Reads nothing, and changes
     /// nothing.
-    #[must_use]
     pub fn peek(&self, after: Duration) -> Option<Believed> {
         let inner = self.inner.try_lock().ok()?;
         Some(Believed {
@@ -280,7 +260,6 @@ impl Drive {
     }
 
     /// Waits for the end of a motion, which ends it when it is left.
-    #[must_use]
     pub fn until_ended(
         self: &Arc<Self>,
         outcome: Arc<Outcome>,
@@ -291,7 +270,6 @@ impl Drive {
 
     /// Waits for the end of the motion under way or last begun, and stops
     /// nothing.
-    #[must_use]
     pub fn until_last_ended(self: &Arc<Self>, timeout: Option<Duration>) -> Slices<UntilEnded> {
         let last = locked(&self.inner).last.clone();
         self.until(last, timeout, false)

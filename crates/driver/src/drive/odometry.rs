@@ -118,32 +118,27 @@ pub struct Wheels {
 
 impl Wheels {
     /// Wheels, each value as its field has it.
-    #[must_use]
     pub const fn new(diameters: [f64; 2], inverted: [bool; 2], axle: f64, offset: f64) -> Self {
         Self { diameters, inverted, axle, per_axle: 1.0 / axle, offset }
     }
 
     /// Distance between the middles of their treads, in cm.
-    #[must_use]
     pub fn axle(&self) -> f64 {
         self.axle
     }
 
     /// Cm that a wheel rolls for each count of its motor, with its sign.
-    #[must_use]
     pub fn cm_per_count(&self, side: usize, counts_per_rotation: f64) -> f64 {
         let way = std::f64::consts::PI * self.diameters[side] / counts_per_rotation;
         if self.inverted[side] { -way } else { way }
     }
 
     /// Way in cm and turn in radians from the ways of both wheels.
-    #[must_use]
     pub fn twist(&self, [left, right]: [f64; 2]) -> (f64, f64) {
         (f64::midpoint(left, right), (left - right) * self.per_axle)
     }
 
     /// The ways of both wheels from way in cm and turn in radians.
-    #[must_use]
     pub fn ways(&self, way: f64, turn: f64) -> [f64; 2] {
         let half = turn * self.axle * 0.5;
         [way + half, way - half]
@@ -198,7 +193,6 @@ impl Default for Estimate {
 
 impl Estimate {
     /// A robot that is known to be at a pose, that of the middle of its axle.
-    #[must_use]
     pub fn at(pose: Pose) -> Self {
         let mut estimate = Self {
             state: [0.0; STATES],
@@ -248,14 +242,12 @@ impl Estimate {
     }
 
     /// The pose of the middle of the axle.
-    #[must_use]
     pub fn pose(&self) -> Pose {
         let [x, y, heading, ..] = self.state;
         Pose { x, y, heading: heading.to_degrees() }
     }
 
     /// Covariance of x, y and heading, in cm and degrees.
-    #[must_use]
     pub fn uncertainty(&self) -> [[f64; 3]; 3] {
         let unit = [1.0, 1.0, 1.0 / DEGREE];
         std::array::from_fn(|i| {
@@ -264,7 +256,6 @@ impl Estimate {
     }
 
     /// The gyro's drift, in degrees a second.
-    #[must_use]
     pub fn drift(&self) -> f64 {
         self.state[RATE].to_degrees()
     }

@@ -70,7 +70,6 @@ const GOAL_ALIGNED: f64 = 1.5;
 impl Leg {
     /// How far a wheel rolls at most, in cm, from a pose that is not far away;
     /// infinite if that is no number.
-    #[must_use]
     pub fn wheels_roll(&self, wheels: &Wheels, from: Pose) -> f64 {
         let turn = |degrees: f64| degrees.to_radians().abs() * wheels.axle() / 2.0;
         let way = |place| distance(from.point(), place);
@@ -200,7 +199,6 @@ impl Steering {
 
     /// A motion of several parts, from a robot at rest at `pose`. It counts
     /// from `goal`, where the motion before was to end, if that is near.
-    #[must_use]
     pub fn along(
         wheels: Wheels,
         limits: Limits,
@@ -218,7 +216,6 @@ impl Steering {
     }
 
     /// A motion without end: speed in cm/s, rate of turn in degrees a second.
-    #[must_use]
     pub fn cruise(wheels: Wheels, limits: Limits, speed: f64, rate: f64) -> Self {
         let task = Task::Cruise { speed, rate: rate.to_radians(), heading: None };
         let goal = Pose::default();
@@ -232,13 +229,11 @@ impl Steering {
     }
 
     /// Whether it goes on until it is stopped.
-    #[must_use]
     pub fn is_endless(&self) -> bool {
         matches!(self.task, Task::Cruise { .. })
     }
 
     /// Where the motion is to end, once it has.
-    #[must_use]
     pub fn goal(&self) -> Option<Pose> {
         (!self.is_endless()).then_some(self.goal)
     }

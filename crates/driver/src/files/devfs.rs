@@ -20,7 +20,6 @@ pub struct DevfsDir {
 
 impl DevfsDir {
     /// The devices below `root`, which need not exist.
-    #[must_use]
     pub fn new(root: impl Into<PathBuf>) -> Self {
         Self { root: root.into(), started: Instant::now() }
     }

@@ -17,7 +17,6 @@ pub struct NoFiles {
 
 impl NoFiles {
     /// A tree that is said to be at `root`.
-    #[must_use]
     pub fn new(root: impl Into<PathBuf>) -> Self {
         Self { root: root.into(), started: Instant::now() }
     }

@@ -22,7 +22,6 @@ pub struct SysfsDir {
 
 impl SysfsDir {
     /// The tree below `root`, which need not exist.
-    #[must_use]
     pub fn new(root: impl Into<PathBuf>) -> Self {
         Self { root: root.into() }
     }

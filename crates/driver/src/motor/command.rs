@@ -127,9 +127,6 @@ pub(crate) fn best_effort(stopped: Result<()>) -> Result<()> {
 
 /// Stops all of these motors, even where one of them fails. An unplugged
 /// motor counts as stopped, and one that does not have the action just stops.
-///
-/// # Errors
-/// The first that occurred.
 pub fn stop_all(motors: &[Arc<Device>], action: StopAction) -> Result<()> {
     let mut result = Ok(());
     for motor in motors {
@@ -140,9 +137,6 @@ pub fn stop_all(motors: &[Arc<Device>], action: StopAction) -> Result<()> {
 
 /// Stops a motor and puts its position, set-points and constants back to what
 /// they are after plugging in.
-///
-/// # Errors
-/// The kernel's.
 pub fn reset(motor: &Device) -> Result<()> {
     start(motor, "reset", None)
 }

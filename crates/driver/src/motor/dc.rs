@@ -46,9 +46,6 @@ pub fn run_forever(
 /// Runs a motor at a duty for a time, and then stops it. `None` if it is absent,
 /// the percentage beyond 100 or the time beyond a minute; then nothing has
 /// moved. Otherwise as [`motor::begin`].
-///
-/// # Errors
-/// As [`motor::run_to`].
 pub fn begin_timed(
     registry: &Arc<Registry>,
     port: &str,

@@ -75,9 +75,6 @@ impl Default for MoveOptions {
 
 /// Stops every motor, of any class, that was started and not stopped since. One
 /// that is gone has nothing to stop.
-///
-/// # Errors
-/// The first that occurred.
 pub fn stop_started(registry: &Registry) -> Result<()> {
     let mut result = Ok(());
     for class in Class::MOTORS {
@@ -93,7 +90,6 @@ pub fn stop_started(registry: &Registry) -> Result<()> {
 }
 
 /// The motors that were started and still turn. One that cannot be read does not.
-#[must_use]
 pub fn running(registry: &Registry) -> Vec<Arc<Device>> {
     let turns = |motor: &Arc<Device>| {
         let is_running = |state: &str| has(state, "running") && !has(state, "holding");
@@ -104,16 +100,12 @@ pub fn running(registry: &Registry) -> Vec<Arc<Device>> {
 }
 
 /// How many commands the program has given to motors so far.
-#[must_use]
 pub fn command_count() -> u32 {
     motion::command_count()
 }
 
 /// Stops the motors that were started, and whose last command by the program was one of
 /// these, counted from 0, and of this thread. A robot's motors are commanded when its course begins.
-///
-/// # Errors
-/// The first that occurred.
 pub fn stop_commanded(registry: &Registry, commands: &Range<u32>) -> Result<()> {
     let mut result = Ok(());
     for class in [Class::TachoMotor, Class::DcMotor] {
@@ -187,9 +179,6 @@ fn run_forever_once(registry: &Registry, runs: &[Run]) -> Result<Option<Vec<Arc<
 }
 
 /// Runs a motor until it is stopped, as [`run_forever`] does, if nothing has to be waited for.
-///
-/// # Errors
-/// The kernel's.
 pub fn run_one(motor: &Arc<Device>, speed: Speed) -> Result<bool> {
     let Some(counts) = speed.in_counts(motor)? else {
         return Ok(false);
@@ -255,9 +244,6 @@ pub fn run_to(
 }
 
 /// The same as a wait that can be left: that stops the motors.
-///
-/// # Errors
-/// As [`run_to`].
 pub fn begin(
     registry: &Arc<Registry>,
     moves: &[Move],

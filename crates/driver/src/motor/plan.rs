@@ -150,9 +150,6 @@ fn counts(motor: &Device, angle: f64) -> Result<Option<i64>> {
 
 /// Tacho counts for a degree of what the motor drives, or a millimeter of a linear
 /// actuator.
-///
-/// # Errors
-/// The kernel's.
 #[expect(clippy::cast_precision_loss, reason = "counts are few")]
 pub fn counts_per_unit(motor: &Device) -> Result<f64> {
     let counts = if motor.is_linear() {
@@ -165,7 +162,6 @@ pub fn counts_per_unit(motor: &Device) -> Result<f64> {
 
 /// `max_speed`, or `count_per_rot` for a turn of what the motor drives, if the driver has
 /// read it from the motor at a port. Asks no device.
-#[must_use]
 #[expect(clippy::cast_precision_loss, reason = "counts are few")]
 pub fn known_counts(devices: &Registry, port: &str, constant: &str) -> Option<f64> {
     let motors = devices.known(Class::TachoMotor);
@@ -201,9 +197,6 @@ pub(crate) fn duty(percent: f64) -> Option<i64> {
 
 /// The `position` or `speed` of a motor in degrees, or millimeters of a linear actuator:
 /// an integer if a tacho count is one of these, else a float.
-///
-/// # Errors
-/// The kernel's.
 #[expect(clippy::cast_precision_loss, reason = "these have 32 bits")]
 pub fn measured(motor: &Device, attribute: &str) -> Result<Value> {
     let (counts, per_unit) = (motor.number(attribute)?, counts_per_unit(motor)?);
@@ -213,9 +206,6 @@ pub fn measured(motor: &Device, attribute: &str) -> Result<Value> {
 
 /// Sets the position of a motor, in the units of [`measured`], without turning it.
 /// `false` if that is beyond what the kernel counts.
-///
-/// # Errors
-/// The kernel's.
 pub fn set_position(motor: &Device, position: f64) -> Result<bool> {
     match counts(motor, position)? {
         Some(counts) => {
@@ -228,9 +218,6 @@ pub fn set_position(motor: &Device, position: f64) -> Result<bool> {
 
 /// Sets how many times a motor turns while what it drives turns once. What the motor has
 /// turned so far, it has turned with the gear before.
-///
-/// # Errors
-/// None.
 pub fn set_gear(motor: &Device, ratio: f64) -> Result<()> {
     motor.without_counting(&mut || {
         motor.set_gear(ratio);

@@ -12,9 +12,6 @@ use crate::motor::wait::has;
 
 /// Sends a servo to a position from -100 to 100 percent, where it stays. `false`
 /// if the position is beyond that; then nothing has moved.
-///
-/// # Errors
-/// The kernel's.
 pub fn set_position(servo: &Device, percent: f64) -> Result<bool> {
     let Some(percent) = duty(percent) else {
         return Ok(false);
@@ -28,9 +25,6 @@ pub fn set_position(servo: &Device, percent: f64) -> Result<bool> {
 ///
 /// The kernel computes it from the pulse, and does not apply the polarity to it
 /// (`servo_motor_class.c`).
-///
-/// # Errors
-/// The kernel's.
 pub fn position(servo: &Device) -> Result<Option<i64>> {
     if !servo.with_word("state", |state| has(state, "running"))? {
         return Ok(None);
@@ -41,9 +35,6 @@ pub fn position(servo: &Device) -> Result<Option<i64>> {
 }
 
 /// Lets a servo float: it no longer keeps its position.
-///
-/// # Errors
-/// The kernel's.
 pub fn float(servo: &Device) -> Result<()> {
     start(servo, "float", None)
 }

@@ -70,7 +70,6 @@ pub enum Reason {
 
 impl Reason {
     /// The word programs see.
-    #[must_use]
     pub fn word(self) -> &'static str {
         match self {
             Self::Reached => "reached",
@@ -97,7 +96,6 @@ pub fn wait_for(
 }
 
 /// The same as a wait that can be left.
-#[must_use]
 pub fn until_done(
     registry: &Arc<Registry>,
     motors: &[Arc<Device>],
@@ -109,7 +107,6 @@ pub fn until_done(
 /// A wait until a flag is among the motor's states, or no longer. Its errors are
 /// [`Error::Unplugged`](crate::Error::Unplugged) when the motor is unplugged, the kernel's,
 /// and [`Error::Interrupted`](crate::Error::Interrupted).
-#[must_use]
 pub fn until_flag(
     registry: &Arc<Registry>,
     motor: &Arc<Device>,

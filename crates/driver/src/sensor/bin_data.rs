@@ -105,9 +105,6 @@ fn fixed_point(float: f32, decimals: i64) -> Option<i64> {
 
 /// The first `count` values of a sensor that is in that mode, as the files
 /// `value<N>` show them. `None` where those files must be read.
-///
-/// # Errors
-/// The kernel's.
 pub(crate) fn values<const N: usize>(
     sensor: &Device,
     mode: &str,

@@ -60,9 +60,6 @@ pub fn read(
 }
 
 /// Reads several values of a sensor in a mode, as [`read`] does.
-///
-/// # Errors
-/// As [`read`].
 pub fn read_all<const N: usize>(
     registry: &Registry,
     sensor: &Arc<Device>,
@@ -84,9 +81,6 @@ pub fn read_all<const N: usize>(
 /// Reads the first `count` values of a sensor in a mode, or all that the mode has,
 /// at most eight, as [`read`] does. They are of one moment where the sensor allows
 /// it, see the module `bin_data`.
-///
-/// # Errors
-/// As [`read`].
 pub fn read_several(
     registry: &Registry,
     sensor: &Arc<Device>,
@@ -132,9 +126,6 @@ fn count_in(sensor: &Device, mode: &str) -> Result<usize> {
 
 /// Puts a sensor into a mode, if it is in another, and waits until its values
 /// are that mode's. `None` where the sensor is gone.
-///
-/// # Errors
-/// As [`read`].
 pub fn set_mode(
     registry: &Registry,
     sensor: &Arc<Device>,
@@ -158,9 +149,6 @@ pub(crate) fn measure_angle(
 /// Restarts a sensor in a mode, be it in that mode already or not; in the present
 /// one, if that shows the same. A gyro's angle is 0 afterwards. `None` where the
 /// sensor is gone.
-///
-/// # Errors
-/// As [`read`].
 pub fn restart(
     registry: &Registry,
     sensor: &Arc<Device>,
@@ -175,9 +163,6 @@ pub fn restart(
 }
 
 /// An integer of the sensor scaled as its values are in its present mode.
-///
-/// # Errors
-/// The kernel's.
 pub fn scale(sensor: &Device, raw: i64) -> Result<Value> {
     Ok(Value::scaled(raw, sensor.number("decimals")?))
 }
@@ -397,9 +382,6 @@ fn present(registry: &Registry, sensor: &Device) -> Result<Option<Arc<Device>>> 
 
 /// The sensor at a port, if it is one of these types; of any type where none
 /// is named.
-///
-/// # Errors
-/// The kernel's.
 pub fn at(registry: &Registry, port: &str, types: &[impl AsRef<str>]) -> Result<Vec<Arc<Device>>> {
     let sensor = registry.find(Class::Sensor, port)?;
     let is_meant = |sensor: &Arc<Device>| {
@@ -409,9 +391,6 @@ pub fn at(registry: &Registry, port: &str, types: &[impl AsRef<str>]) -> Result<
 }
 
 /// All sensors of these types; where none is named, all that have the mode.
-///
-/// # Errors
-/// The kernel's.
 pub fn with_mode(
     registry: &Registry,
     types: &[impl AsRef<str>],

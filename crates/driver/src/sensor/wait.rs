@@ -43,7 +43,6 @@ pub enum Ended {
 
 impl Ended {
     /// As programs see it.
-    #[must_use]
     pub fn word(self) -> &'static str {
         match self {
             Self::Reached => "reached",
@@ -55,7 +54,6 @@ impl Ended {
 
 /// A wait until value `index` of a sensor in a mode is as it should be. Samples it at
 /// least once. Its errors are those of [`read`].
-#[must_use]
 pub fn until_shown(
     registry: &Arc<Registry>,
     sensor: &Arc<Device>,

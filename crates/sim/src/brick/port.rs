@@ -54,19 +54,16 @@ impl Port {
     ];
 
     /// The address as the files spell it since ev3dev-stretch, such as `ev3-ports:outA`.
-    #[must_use]
     pub const fn address(self) -> &'static str {
         ADDRESSES[self as usize]
     }
 
     /// The short form, such as `outA`.
-    #[must_use]
     pub fn name(self) -> &'static str {
         &self.address()[PREFIX..]
     }
 
     /// True for outA … outD.
-    #[must_use]
     pub const fn is_output(self) -> bool {
         self as usize >= 4
     }

@@ -70,7 +70,6 @@ pub fn stay_outside(is_outside: bool) {
 }
 
 /// Whether this thread reaches in from outside.
-#[must_use]
 pub fn is_outside() -> bool {
     IS_OUTSIDE.get()
 }
@@ -170,7 +169,6 @@ impl Simulation {
     }
 
     /// How many robots are in its world.
-    #[must_use]
     pub fn robots(&self) -> usize {
         self.processor.as_ref().map_or(1, |processor| processor.crowd.members().len())
     }
@@ -181,7 +179,6 @@ impl Simulation {
     }
 
     /// The machine behind its lock, as a mount needs it.
-    #[must_use]
     pub fn shared(&self) -> Arc<Shared> {
         Arc::clone(&self.shared)
     }
@@ -263,7 +260,6 @@ impl Simulation {
     }
 
     /// The limit of [`Simulation::set_pace`].
-    #[must_use]
     pub fn pace(&self) -> Option<f64> {
         self.shared.with_pace(Pace::factor)
     }
@@ -274,13 +270,11 @@ impl Simulation {
     }
 
     /// Whether time stands.
-    #[must_use]
     pub fn is_paused(&self) -> bool {
         self.shared.with_pace(Pace::is_paused)
     }
 
     /// Whether no time may pass just now, by the pace or as it is paused.
-    #[must_use]
     pub fn is_held(&self) -> bool {
         let now = self.machine().now();
         matches!(self.shared.with_pace(|pace| pace.leave(now)), Leave::Wait(_))
@@ -293,7 +287,6 @@ impl Simulation {
     }
 
     /// How time passes.
-    #[must_use]
     pub fn clock(&self) -> Clock {
         match self.clock {
             Passing::Wall { factor, .. } => Clock::Wall(factor),
@@ -360,7 +353,6 @@ impl Simulation {
     }
 
     /// Whether this thread runs an act just now.
-    #[must_use]
     pub fn is_acting(&self) -> bool {
         self.acts.is_acting()
     }

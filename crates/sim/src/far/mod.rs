@@ -84,7 +84,6 @@ impl Kind {
     ];
 
     /// The kind with this number.
-    #[must_use]
     pub fn of(number: u8) -> Option<Kind> {
         Self::ALL.get(usize::from(number)).copied()
     }

@@ -64,9 +64,6 @@ impl Line {
     }
 
     /// Over a socket that is connected.
-    ///
-    /// # Errors
-    /// As [`Line::connect`].
     pub fn new(stream: UnixStream, lost: fn()) -> io::Result<(Line, Duration)> {
         let mut hello = [0; 16];
         let mailbox = Mailbox::receive(&stream, &mut hello)?;
@@ -166,9 +163,6 @@ pub struct Desk {
 
 impl Desk {
     /// Greets a program that has connected, at this time.
-    ///
-    /// # Errors
-    /// The system's.
     pub fn new(mut stream: UnixStream, now: Duration) -> io::Result<Desk> {
         let mut hello = HELLO.to_vec();
         hello.extend(nanos(now).to_le_bytes());
@@ -185,9 +179,6 @@ impl Desk {
     }
 
     /// The next question, or the one that was not answered yet. Waits so long for it.
-    ///
-    /// # Errors
-    /// The system's.
     pub fn hear(&mut self, within: Duration) -> io::Result<Next> {
         let mut buffer = [0; 4096];
         if self.is_lost {

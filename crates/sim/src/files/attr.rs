@@ -22,13 +22,11 @@ pub enum Access {
 
 impl Access {
     /// True if an attribute of this kind can be opened as `wanted`.
-    #[must_use]
     pub fn allows(self, wanted: Access) -> bool {
         self == Access::ReadWrite || self == wanted
     }
 
     /// True if it includes writing.
-    #[must_use]
     pub fn writes(self) -> bool {
         self != Access::ReadOnly
     }

@@ -122,7 +122,6 @@ impl Mount {
     }
 
     /// The directory of the mount.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }

@@ -21,7 +21,6 @@ fn id_of(index: usize) -> ItemId {
 }
 
 /// The robot of several that a collision was with, if it was with one.
-#[must_use]
 pub fn robot_of(id: ItemId) -> Option<usize> {
     let index = u32::MAX - id.0;
     (index < 1 << 16).then_some(index as usize)

@@ -26,13 +26,11 @@ impl Descriptor {
     }
 
     /// Wraps a node that was opened already.
-    #[must_use]
     pub const fn new(node: NodeId) -> Descriptor {
         Descriptor { node, text: Vec::new(), at: 0, seen: None }
     }
 
     /// The node behind it.
-    #[must_use]
     pub const fn node(&self) -> NodeId {
         self.node
     }
@@ -88,7 +86,6 @@ impl Descriptor {
 
     /// True if poll(2) would report POLLPRI and POLLERR: the attribute has notified since this
     /// descriptor's last read, was never read on it, or its device is gone.
-    #[must_use]
     pub fn poll(&self, machine: &Machine) -> bool {
         match machine.event_count(self.node) {
             Ok(count) => self.seen != Some(count),

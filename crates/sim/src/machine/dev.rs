@@ -146,7 +146,6 @@ impl DevDescriptor {
     }
 
     /// How many bytes there are; event devices have no end.
-    #[must_use]
     pub fn length(&self, machine: &Machine) -> Option<usize> {
         (self.device == Device::Screen).then(|| machine.panel.screen.len())
     }
@@ -197,7 +196,6 @@ impl DevDescriptor {
     }
 
     /// True if poll(2) would report that there is something to read.
-    #[must_use]
     pub fn is_ready(&self, machine: &Machine) -> bool {
         match self.device {
             Device::Keys => machine.panel.event(self.read).is_some(),

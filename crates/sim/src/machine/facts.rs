@@ -6,7 +6,6 @@ use ev3_motion::{Bounds, Point, Pose};
 
 impl Machine {
     /// The world as a file of facts. It starts where the robot is now.
-    #[must_use]
     pub fn world_facts(&self) -> String {
         let scene = &self.scene;
         let mut facts = Vec::new();

@@ -54,17 +54,11 @@ impl Machine {
     }
 
     /// Kind, permission bits and size of a node.
-    ///
-    /// # Errors
-    /// ENODEV if its device is gone.
     pub fn stat(&self, node: NodeId) -> Result<Stat, Errno> {
         self.tree.stat(node, self.tick)
     }
 
     /// The path of a node below the class directory.
-    ///
-    /// # Errors
-    /// ENODEV if its device is gone.
     pub fn path(&self, node: NodeId) -> Result<String, Errno> {
         self.tree.path(node)
     }
@@ -80,17 +74,11 @@ impl Machine {
     }
 
     /// The same check for a node that is known already.
-    ///
-    /// # Errors
-    /// As [`Machine::open`].
     pub fn open_node(&self, node: NodeId, access: Access) -> Result<(), Errno> {
         self.tree.may_open(node, access, self.tick)
     }
 
     /// The same for a program of root, which does not wait for udev.
-    ///
-    /// # Errors
-    /// As [`Machine::open`].
     pub fn open_node_as_root(&self, node: NodeId, access: Access) -> Result<(), Errno> {
         self.tree.may_open(node, access, u64::MAX)
     }
@@ -113,15 +101,11 @@ impl Machine {
     }
 
     /// True if reads and writes go to the driver with their offset, as those of `direct` do.
-    #[must_use]
     pub fn is_binary(&self, node: NodeId) -> bool {
         self.tree.is_binary(node)
     }
 
     /// Reads from an offset on, of a binary attribute. Of another one, its text from there.
-    ///
-    /// # Errors
-    /// As [`Machine::read`].
     pub fn read_at(&mut self, node: NodeId, offset: usize, count: usize) -> Result<Vec<u8>, Errno> {
         if let Some(bytes) = self.tree.read_at(node, offset, count)? {
             return Ok(bytes);

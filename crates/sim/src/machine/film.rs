@@ -44,7 +44,6 @@ pub(super) struct Values {
 impl Sample {
     /// Position, speed and duty of a motor as its files show them, or the first four values of a
     /// sensor; empty for all else.
-    #[must_use]
     pub fn values(&self, port: Port) -> &[f64] {
         let Values { count, values } = &self.ports[port as usize];
         &values[..*count]

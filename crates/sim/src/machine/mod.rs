@@ -185,7 +185,6 @@ impl Machine {
     // ---- ground truth ---------------------------------------------------------------------
 
     /// The true pose of the robot. The heading is not reduced to a full turn.
-    #[must_use]
     pub fn pose(&self) -> Pose {
         self.body.pose
     }
@@ -255,7 +254,6 @@ impl Machine {
     }
 
     /// Everything in the world, with the numbers under which it can be removed.
-    #[must_use]
     pub fn items(&self) -> &[(ItemId, Item)] {
         self.scene.items()
     }
@@ -338,7 +336,6 @@ impl Machine {
     }
 
     /// The robot as it was given.
-    #[must_use]
     pub fn robot(&self) -> &RobotSpec {
         &self.robot
     }
@@ -351,7 +348,6 @@ impl Machine {
     }
 
     /// The events so far.
-    #[must_use]
     pub fn trace(&self) -> &Trace {
         &self.trace
     }

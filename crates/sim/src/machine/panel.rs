@@ -27,19 +27,16 @@ impl Machine {
     }
 
     /// True while the button is held.
-    #[must_use]
     pub fn is_pressed(&self, button: Button) -> bool {
         self.panel.is_down(button)
     }
 
     /// How often a button was pressed or released.
-    #[must_use]
     pub fn button_events(&self) -> u64 {
         self.panel.event_count
     }
 
     /// When a planned press or release is next due.
-    #[must_use]
     pub fn next_button(&self) -> Option<Duration> {
         self.panel.next_planned()
     }
@@ -63,7 +60,6 @@ impl Machine {
     }
 
     /// The present tone of the tone generator, in Hz; 0 is silence.
-    #[must_use]
     pub fn tone(&self) -> u32 {
         self.panel.tone()
     }
@@ -90,7 +86,6 @@ impl Machine {
     }
 
     /// The volume of speech and recordings, in percent.
-    #[must_use]
     pub fn volume(&self) -> u8 {
         self.panel.volume
     }

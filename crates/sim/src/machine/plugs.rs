@@ -70,7 +70,6 @@ impl Machine {
     }
 
     /// Whether the kernel has yet to show what was plugged in, or that it was pulled out.
-    #[must_use]
     pub fn is_detecting(&self, port: Port) -> bool {
         let socket = &self.sockets[port as usize];
         socket.noticed.is_some() || socket.due.is_some()

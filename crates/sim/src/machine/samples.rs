@@ -20,7 +20,6 @@ impl Machine {
     }
 
     /// The samples after a moment, or all, oldest first.
-    #[must_use]
     pub fn samples(&self, after: Option<Duration>) -> Vec<&Sample> {
         let is_new = |sample: &&Sample| after.is_none_or(|after| sample.at > after);
         let newest = self.film.iter().flat_map(|film| film.kept.newest());

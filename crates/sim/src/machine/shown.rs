@@ -80,19 +80,16 @@ pub struct ShownSensor {
 
 impl Machine {
     /// A number that changes whenever something comes into the world or leaves it.
-    #[must_use]
     pub fn world_version(&self) -> u64 {
         self.scene.version()
     }
 
     /// A number that changes whenever something is drawn.
-    #[must_use]
     pub fn screen_version(&self) -> u64 {
         self.panel.drawn
     }
 
     /// Whether the robot or one of its motors moves.
-    #[must_use]
     pub fn is_moving(&self) -> bool {
         self.body.slip != 0.0
             || self.body.spins.into_iter().flatten().any(|speed| speed != 0.0)
@@ -100,19 +97,16 @@ impl Machine {
     }
 
     /// The walls around the world.
-    #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {
         self.scene.bounds
     }
 
     /// The color of the floor where nothing lies on it.
-    #[must_use]
     pub fn floor(&self) -> Color {
         self.scene.floor
     }
 
     /// Light from everywhere, temperature and loudness, as in the facts of a world.
-    #[must_use]
     pub fn surroundings(&self) -> [f64; 3] {
         let scene = &self.scene;
         [scene.ambient, scene.temperature, scene.loudness]
@@ -124,13 +118,11 @@ impl Machine {
     }
 
     /// Where the robot starts in this world.
-    #[must_use]
     pub fn start(&self) -> Pose {
         self.scene.start
     }
 
     /// The device at a port.
-    #[must_use]
     pub fn shown(&self, port: Port) -> Shown {
         let socket = &self.sockets[port as usize];
         match (self.device(port), socket.plug) {
@@ -156,7 +148,6 @@ impl Machine {
     }
 
     /// The units of the values of the sensor at a port; empty if there is none.
-    #[must_use]
     pub fn units(&self, port: Port) -> &'static str {
         match self.device(port) {
             Some(Hardware::Sensor(sensor)) => sensor.mode().units,
@@ -165,7 +156,6 @@ impl Machine {
     }
 
     /// The name of the driver of the device at a port.
-    #[must_use]
     pub fn plugged(&self, port: Port) -> Option<&'static str> {
         self.sockets[port as usize].plug.map(Plug::driver)
     }
@@ -189,7 +179,6 @@ impl Machine {
     }
 
     /// Red and green of the left and of the right light of the brick: 0 to 255.
-    #[must_use]
     pub fn lights(&self) -> [[u64; 2]; 2] {
         let light = |side, color| {
             let name = format!("led{side}:{color}:brick-status");
@@ -203,7 +192,6 @@ impl Machine {
     }
 
     /// Volts and amperes of the battery.
-    #[must_use]
     pub fn battery(&self) -> Option<[f64; 2]> {
         match self.tree.hardware(self.battery) {
             Some(Hardware::Battery(battery)) => Some([battery.volts, battery.amperes]),
@@ -212,7 +200,6 @@ impl Machine {
     }
 
     /// Red, green and blue of each pixel of the screen, line by line.
-    #[must_use]
     pub fn pixels(&self) -> Vec<[u8; 3]> {
         let (screen, stride) = (&self.panel.screen, self.options.depth.stride());
         let pixel = |index: usize| {

@@ -30,11 +30,10 @@ fn include_item(frame: &mut Bounds, item: &Item) {
 
 impl Machine {
     /// An SVG picture, one unit a centimeter, y up.
-    #[must_use]
     pub fn svg(&self) -> String {
         let (pose, frame) = (self.pose(), self.frame());
         let mut svg = Svg::new(&frame, "");
-        svg.fill(&frame, self.scene.floor);
+        svg.fill(&frame, &format!("{}", self.scene.floor));
         if let Some(bounds) = &self.scene.bounds {
             svg.bounds(bounds);
         }
@@ -51,14 +50,14 @@ impl Machine {
             points(path)
         ));
         for hit in self.trace.collisions() {
-            svg.circle(" class=\"collision\"", hit.pose.point(), 1.5, "fill=\"#f80\"");
+            let style = "fill=\"#f80\"";
+            svg.circle(" class=\"collision\"", hit.pose.point(), "1.5", style);
         }
         draw_robot(&mut svg, pose, self.robot.hull);
         svg.into_text()
     }
 
     /// The rectangle around everything, with a margin.
-    #[must_use]
     pub fn frame(&self) -> Bounds {
         let at = self.pose().point();
         let mut frame = Bounds { low: at, high: at };
@@ -78,15 +77,15 @@ fn draw_item(svg: &mut Svg, id: u32, item: &Item) {
     let name = &format!(" id=\"item{id}\"");
     match item {
         Item::Wall { from, to, thickness } => {
-            let style = format_args!("stroke=\"#444\" stroke-width=\"{thickness:.2}\"");
+            let style = &format!("stroke=\"#444\" stroke-width=\"{thickness:.2}\"");
             svg.line(name, [*from, *to], style);
         }
         Item::Box { pose, width, depth } => {
-            let style = format_args!("fill=\"#987\" {}", placed(*pose));
+            let style = &format!("fill=\"#987\" {}", placed(*pose));
             svg.rectangle(name, [-width / 2.0, -depth / 2.0], [*width, *depth], style);
         }
         Item::Circle { center, radius } => {
-            svg.circle(name, *center, format_args!("{radius:.2}"), "fill=\"#987\"");
+            svg.circle(name, *center, &format!("{radius:.2}"), "fill=\"#987\"");
         }
         Item::Patch { corners, color } => {
             let corners = points(corners.iter().copied());
@@ -99,11 +98,13 @@ fn draw_item(svg: &mut Svg, id: u32, item: &Item) {
         )),
         Item::Lamp { at, .. } | Item::Bulb { at, .. } => {
             let name = format!("{name} class=\"lamp\"");
-            svg.circle(&name, *at, 3, "fill=\"#fd0\" stroke=\"#a80\" stroke-width=\"0.5\"");
+            let style = "fill=\"#fd0\" stroke=\"#a80\" stroke-width=\"0.5\"";
+            svg.circle(&name, *at, "3", style);
         }
         Item::Beacon { at, channel } => {
             let name = format!("{name} class=\"beacon channel{channel}\"");
-            svg.circle(&name, *at, 2, "fill=\"#c3c\" stroke=\"#606\" stroke-width=\"0.5\"");
+            let style = "fill=\"#c3c\" stroke=\"#606\" stroke-width=\"0.5\"";
+            svg.circle(&name, *at, "2", style);
         }
     }
 }

@@ -20,7 +20,6 @@ const FARTHEST_TICKS: u64 = 25;
 
 impl Machine {
     /// Virtual time since boot.
-    #[must_use]
     pub fn now(&self) -> Duration {
         self.now
     }
@@ -37,7 +36,6 @@ impl Machine {
     /// the next look of the class at a motor's flags, the end of a sensor's mode change, a plug being
     /// noticed, the 10 ms sample of a touch sensor on a moving robot, a planned key. A virtual clock
     /// may jump there with `step(next_event() - now())` and look again.
-    #[must_use]
     pub fn next_event(&self) -> Duration {
         let next_on_grid = |grid: u64| (self.tick / grid + 1) * grid;
         let mut next = next_on_grid(FARTHEST_TICKS);
@@ -289,13 +287,11 @@ impl Machine {
     // ---- ground truth ---------------------------------------------------------------------
 
     /// The angle that a motor's shaft has turned since boot, in degrees.
-    #[must_use]
     pub fn shaft_angle(&self, port: Port) -> f64 {
         if port.is_output() { self.shafts[port.slot()].angle } else { 0.0 }
     }
 
     /// Energy of motion of robot and motors, in joules.
-    #[must_use]
     pub fn kinetic_energy(&self) -> f64 {
         let (loads, _) = self.loads();
         let wheels = self.robot.wheels.map(|wheels| wheels.ports().map(Port::slot));

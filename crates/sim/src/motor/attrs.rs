@@ -32,6 +32,17 @@ macro_rules! store {
     }};
 }
 
+/// An attribute that is a number of the motor, from a least to a most.
+macro_rules! within {
+    ($name:literal, $($field:ident).+, $least:expr, $most:expr) => {
+        Attr::rw(
+            $name,
+            |m| text(m.$($field).+),
+            |m, b| store!(m.$($field).+ = strict_int_in(b, $least, $most)?),
+        )
+    };
+}
+
 impl Table for Tacho {
     const ATTRS: &'static [Attr<Tacho>] = &[
         Attr::ro("address", |m| text(m.port.address())),
@@ -58,21 +69,9 @@ impl Table for Tacho {
         ),
         Attr::ro("full_travel_count", |m: &Tacho| text(m.kind.travel.unwrap_or(0)))
             .only_while(|m| m.kind.travel.is_some()),
-        Attr::rw(
-            "hold_pid/Kd",
-            |m| text(m.hold_pid.kd),
-            |m, b| store!(m.hold_pid.kd = strict_int_in(b, 0, i32::MAX)?),
-        ),
-        Attr::rw(
-            "hold_pid/Ki",
-            |m| text(m.hold_pid.ki),
-            |m, b| store!(m.hold_pid.ki = strict_int_in(b, 0, i32::MAX)?),
-        ),
-        Attr::rw(
-            "hold_pid/Kp",
-            |m| text(m.hold_pid.kp),
-            |m, b| store!(m.hold_pid.kp = strict_int_in(b, 0, i32::MAX)?),
-        ),
+        within!("hold_pid/Kd", hold_pid.kd, 0, i32::MAX),
+        within!("hold_pid/Ki", hold_pid.ki, 0, i32::MAX),
+        within!("hold_pid/Kp", hold_pid.kp, 0, i32::MAX),
         Attr::ro("max_speed", |m| text(m.kind.max_speed)),
         Attr::rw(
             "polarity",
@@ -93,32 +92,12 @@ impl Table for Tacho {
             |m| text(m.sign(m.set.position)),
             |m, b| store!(m.set.position = m.sign(strict_int(b)?)),
         ),
-        Attr::rw(
-            "ramp_down_sp",
-            |m| text(m.set.ramp_down_ms),
-            |m, b| store!(m.set.ramp_down_ms = strict_int_in(b, 0, LONGEST_RAMP_MS)?),
-        ),
-        Attr::rw(
-            "ramp_up_sp",
-            |m| text(m.set.ramp_up_ms),
-            |m, b| store!(m.set.ramp_up_ms = strict_int_in(b, 0, LONGEST_RAMP_MS)?),
-        ),
+        within!("ramp_down_sp", set.ramp_down_ms, 0, LONGEST_RAMP_MS),
+        within!("ramp_up_sp", set.ramp_up_ms, 0, LONGEST_RAMP_MS),
         Attr::ro("speed", |m| text(m.sign(m.speed))),
-        Attr::rw(
-            "speed_pid/Kd",
-            |m| text(m.speed_pid.kd),
-            |m, b| store!(m.speed_pid.kd = strict_int_in(b, 0, i32::MAX)?),
-        ),
-        Attr::rw(
-            "speed_pid/Ki",
-            |m| text(m.speed_pid.ki),
-            |m, b| store!(m.speed_pid.ki = strict_int_in(b, 0, i32::MAX)?),
-        ),
-        Attr::rw(
-            "speed_pid/Kp",
-            |m| text(m.speed_pid.kp),
-            |m, b| store!(m.speed_pid.kp = strict_int_in(b, 0, i32::MAX)?),
-        ),
+        within!("speed_pid/Kd", speed_pid.kd, 0, i32::MAX),
+        within!("speed_pid/Ki", speed_pid.ki, 0, i32::MAX),
+        within!("speed_pid/Kp", speed_pid.kp, 0, i32::MAX),
         Attr::rw(
             "speed_sp",
             |m| text(m.sign(m.set.speed)),
@@ -137,11 +116,7 @@ impl Table for Tacho {
             |m, b| store!(m.set.stop_action = chosen(b, &StopAction::WORDS)?),
         ),
         Attr::ro("stop_actions", |_| text(joined(&StopAction::WORDS))),
-        Attr::rw(
-            "time_sp",
-            |m| text(m.set.time_ms),
-            |m, b| store!(m.set.time_ms = strict_int_in(b, 0, i32::MAX)?),
-        ),
+        within!("time_sp", set.time_ms, 0, i32::MAX),
         Attr::rw(
             "uevent",
             |m| uevent(m.kind.driver_name, m.port.address()),

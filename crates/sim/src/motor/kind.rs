@@ -87,7 +87,6 @@ pub static MOTOR_KINDS: [MotorKind; 5] = [
 
 impl MotorKind {
     /// The motor with this driver name.
-    #[must_use]
     pub fn named(driver_name: &str) -> Option<&'static MotorKind> {
         MOTOR_KINDS.iter().find(|kind| kind.driver_name == driver_name)
     }

@@ -23,7 +23,6 @@ pub enum Link {
 
 impl Link {
     /// True if it is a voltage.
-    #[must_use]
     pub fn is_analog(self) -> bool {
         matches!(self, Link::Analog | Link::NxtAnalog { .. })
     }

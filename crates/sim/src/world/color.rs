@@ -33,13 +33,11 @@ impl Color {
     pub const WHITE: Color = PALETTE[5].1;
 
     /// A color from its parts.
-    #[must_use]
     pub const fn rgb(red: u8, green: u8, blue: u8) -> Color {
         Color { red, green, blue }
     }
 
     /// The number that COL-COLOR reads: 1 black … 7 brown, the nearest of them.
-    #[must_use]
     pub fn code(self) -> i32 {
         let away = |other: Color| {
             let part = |a: u8, b: u8| (i32::from(a) - i32::from(b)).pow(2);

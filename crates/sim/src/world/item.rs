@@ -85,13 +85,11 @@ pub enum Item {
 
 impl Item {
     /// A wall of the usual thickness, 1 cm.
-    #[must_use]
     pub const fn wall(from: Point, to: Point) -> Item {
         Item::Wall { from, to, thickness: 1.0 }
     }
 
     /// A colored rectangle on the floor from one corner to the opposite one.
-    #[must_use]
     pub fn rectangle([x1, y1]: Point, [x2, y2]: Point, color: Color) -> Item {
         Item::Patch { corners: vec![[x1, y1], [x2, y1], [x2, y2], [x1, y2]], color }
     }
@@ -112,7 +110,6 @@ impl Item {
     }
 
     /// The word for it in error messages.
-    #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
             Item::Wall { .. } => "wall",

@@ -68,13 +68,11 @@ impl Drawing {
     }
 
     /// How many cells it is wide, at its widest row, and how many high.
-    #[must_use]
     pub fn size(&self) -> Cell {
         [self.rows.iter().map(Vec::len).max().unwrap_or_default(), self.rows.len()]
     }
 
     /// Where a robot starts, and its heading in degrees clockwise from above.
-    #[must_use]
     pub fn start(&self) -> Option<(Cell, u16)> {
         self.start
     }

@@ -44,7 +44,6 @@ impl Shade {
     ];
 
     /// The shade that programs call so.
-    #[must_use]
     pub fn named(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|(_, name, _)| *name == word).map(|(shade, ..)| shade)
     }
@@ -103,7 +102,6 @@ pub enum Font {
 
 impl Font {
     /// The font of that name.
-    #[must_use]
     pub fn named(word: &str) -> Option<Self> {
         let fonts = [Self::Tiny, Self::Small, Self::Medium, Self::Large];
         fonts
@@ -161,7 +159,6 @@ impl Default for Frame {
 
 impl Frame {
     /// Its shades, line by line, 0 is black.
-    #[must_use]
     pub fn shades(&self) -> &[u8] {
         &self.pixels
     }

@@ -151,7 +151,6 @@ pub fn write_png(path: &Path, width: u32, height: u32, shades: &[u8]) -> Result<
 /// A PNG file of these shades, line by line. It is not compressed, which would
 /// take more memory of the program than it saves on the disk; but a pixel has no
 /// more bits than it needs.
-#[must_use]
 pub fn to_png(width: u32, height: u32, shades: &[u8]) -> Vec<u8> {
     let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
     let bits = bits_needed(shades);

@@ -7,7 +7,6 @@ use super::kind::SensorKind;
 
 impl SensorKind {
     /// The sensor with this driver name.
-    #[must_use]
     pub fn named(driver_name: &str) -> Option<&'static SensorKind> {
         SensorKind::all().find(|kind| kind.driver_name == driver_name)
     }
