@@ -109,9 +109,7 @@ version :-
     format("ev3dev ~w, SWI-Prolog ~d.~d.~d~n",
            [Version, Major, Minor, Patch]).
 
-                /*******************************
-                *           COMMANDS           *
-                *******************************/
+% ---------------- COMMANDS
 
 call_command(view, Files, Options) :-
     maplist(program_file, Files, Paths),

@@ -99,9 +99,7 @@ begin :-
 as_hand(Goal) :-
     setup_call_cleanup(view_thread_(true), once(Goal), view_thread_(false)).
 
-                /*******************************
-                *             LINES            *
-                *******************************/
+% ---------------- LINES
 
 %   Waits for it; somebody may drive meanwhile.
 next_line(Line) :-
@@ -149,9 +147,7 @@ hand(Line) :-
     ;   true
     ).
 
-                /*******************************
-                *          THE PROGRAM         *
-                *******************************/
+% ---------------- THE PROGRAM
 
 %   The program begins as in a Prolog that was just started, in the world as it
 %   is.
@@ -320,9 +316,7 @@ running(Goal) :-
     output_noted,
     stopped.
 
-                /*******************************
-                *           THE TURN           *
-                *******************************/
+% ---------------- THE TURN
 
 :- multifile
     ev3dev_waits:page_turn/0,
@@ -399,9 +393,7 @@ heard(Line) :-
     ;   hand(Line)
     ).
 
-                /*******************************
-                *       OUTPUT, MESSAGES       *
-                *******************************/
+% ---------------- OUTPUT, MESSAGES
 
 %   The browser speaks. Nobody says how long that takes.
 :- multifile ev3dev_sound:spoken/2.

@@ -108,9 +108,7 @@ must_have_a_task :-
                     context(task/2, 'libraries without a task, and tasks of none')))
     ).
 
-                /*******************************
-                *          LIBRARIES           *
-                *******************************/
+% ---------------- LIBRARIES
 
 public_file(File) :-
     member(Pattern, ['prolog/*.pl', 'prolog/ev3dev/*.pl']),
@@ -237,9 +235,7 @@ to_string(Html, String) :-
     phrase(html(Html), Tokens),
     with_output_to(string(String), print_html(Tokens)).
 
-                /*******************************
-                *           INDICES            *
-                *******************************/
+% ---------------- INDICES
 
 write_index(Directory, Map) :-
     findall(Task-Names, task(Task, Names), Tasks),
@@ -308,9 +304,7 @@ summary(PI, Def, Summary) :-
 summary(PI, Def, _) :-
     throw(error(existence_error(documentation, Def:PI), _)).
 
-                /*******************************
-                *  WORLDS, ROBOTS, PLANNERS    *
-                *******************************/
+% ---------------- WORLDS, ROBOTS, PLANNERS
 
 write_worlds(Directory, Map) :-
     fact_files(worlds, Files),
@@ -384,9 +378,7 @@ in_words(Claim, Words) :-
     atomic_list_concat(Parts, '_', Text),
     atomic_list_concat(Parts, ' ', Words).
 
-                /*******************************
-                *            PAGES             *
-                *******************************/
+% ---------------- PAGES
 
 write_site_page(Directory, Name, Title, Html) :-
     phrase(page([ title(Title), meta(charset('UTF-8')),

@@ -42,9 +42,7 @@ main :-
            )),
     halt(0).
 
-                /*******************************
-                *            PAPER             *
-                *******************************/
+% ---------------- PAPER
 
 paper(File) :-
     read_file_to_string(File, Text, [encoding(utf8)]),
@@ -118,9 +116,7 @@ world(Path) :-
     format(atom(Picture), 'docs/pictures/world_~w.svg', [Name]),
     with_sim(Name, sim_svg(Picture), [clock(virtual)]).
 
-                /*******************************
-                *            FILMS             *
-                *******************************/
+% ---------------- FILMS
 
 %   The path stays; the robot moves along it, ten times as fast as it did.
 

@@ -66,9 +66,7 @@ lines_of(Arguments, Lines) :-
                        close(Out)),
     split_string(String, "\n", "", Lines).
 
-                 /*******************************
-                 *            CHANGES           *
-                 *******************************/
+% ---------------- CHANGES
 
 %   mutant(File, Line, From-To, New): New replaces the characters From to To.
 mutant(File, Options, mutant(File, Line, From-To, New)) :-
@@ -212,9 +210,7 @@ text(Text, Position, Part) :-
     Length is To - From,
     sub_string(Text, From, Length, _, Part).
 
-                 /*******************************
-                 *             TESTS            *
-                 *******************************/
+% ---------------- TESTS
 
 %   tests(Files, Tests): of what has no test file of its name, or other tests, too.
 tests([arguments, checks, domains, errors, error_texts, frames, public_clauses],

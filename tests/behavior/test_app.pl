@@ -1,10 +1,6 @@
 % The pack from a shell: app/ev3dev.pl, its answers and its exit status.
 
 :- use_module('../support/child').
-:- use_module(library(lists)).
-:- use_module(library(plunit)).
-:- use_module(library(process)).
-:- use_module(library(readutil)).
 
 app(Line, Status, Output) :-
     app(Line, "", Status, Output).
@@ -299,7 +295,6 @@ without_view(Typed, Line) :-
 
 :- begin_tests(app_playground, [condition(exists_source(library(http/http_files)))]).
 
-:- use_module(library(filesex)).
 :- use_module(library(http/http_open)).
 
 test(a_folder_without_one) :-

@@ -2,20 +2,11 @@
 :- use_module('../support/trees').
 :- use_module('../support/odd_terms').
 :- use_module('../support/old_prolog').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/journal)).
 :- use_module(library(ev3dev/navigation)).
 :- use_module(library(ev3dev/roadmap)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(apply)).
-:- use_module(library(filesex)).
-:- use_module(library(lists)).
-:- use_module(library(readutil)).
-:- use_module(library(time)).
 
-                /*******************************
-                *          ANY TERMS           *
-                *******************************/
+% ---------------- ANY TERMS
 
 % Each exported predicate with odd terms for each argument in turn, beside
 % sensible ones. It may do whatever it likes but throw what is no ISO error,
@@ -64,197 +55,105 @@ call_for_seconds(motor_run_timed(port, number, out)).
 call_for_seconds(motor_run_to(port, number, out)).
 call_for_seconds(dc_motor_run_timed(dc, number, out)).
 
-% Calls that return at once on a tree where nothing moves.
-call_of(subsystem_detect(port, type, out, pattern)).
-call_of(file_read(file, out)).
-call_of(file_write(file, number)).
-call_of(tacho_motor(port)).
-call_of(tacho_motor(port, out)).
-call_of(tacho_motor(port, out, out)).
-call_of(ev3_large_motor(port)).
-call_of(ev3_medium_motor(port)).
-call_of(nxt_motor(port)).
-call_of(servo_motor(port)).
-call_of(lego_sensor(sensor)).
-call_of(lego_sensor(sensor, out)).
-call_of(lego_sensor(sensor, out, out)).
-call_of(motor_attribute(port, attribute, number)).
-call_of(sensor_attribute(sensor, attribute, out)).
-call_of(command(port, command)).
-call_of(command_file(port, out)).
-call_of(speed(port, out)).
-call_of(speed_file(port, out)).
-call_of(speed_sp(port, number)).
-call_of(speed_sp_file(port, out)).
-call_of(max_speed(port, out)).
-call_of(max_speed_file(port, out)).
-call_of(position(port, number)).
-call_of(position_file(port, out)).
-call_of(position_sp(port, number)).
-call_of(position_sp_file(port, out)).
-call_of(state(port, out)).
-call_of(state_file(port, out)).
-call_of(motor_states(port, out)).
-call_of(mode(sensor, mode)).
-call_of(mode_file(sensor, out)).
-call_of(value(sensor, index, out)).
-call_of(value_file(sensor, index, out)).
-call_of(decimals(sensor, out)).
-call_of(decimals_file(sensor, out)).
-call_of(light_sensor(sensor)).
-call_of(ultrasonic_sensor(sensor)).
-call_of(gyro_sensor(sensor)).
-call_of(touch_sensor(sensor)).
-call_of(infrared_sensor(sensor)).
-call_of(col_ambient(sensor, out)).
-call_of(col_reflect(sensor, out)).
-call_of(col_color(sensor, out)).
-call_of(col_rgb_raw(sensor, out)).
-call_of(col_rgb_raw(sensor, out, out, out)).
-call_of(us_dist_cm(sensor, out)).
-call_of(us_dist_inches(sensor, out)).
-call_of(us_listen(sensor, out)).
-call_of(gyro_ang(sensor, out)).
-call_of(gyro_rate(sensor, out)).
-call_of(gyro_ang_rate(sensor, out, out)).
-call_of(gyro_reset(sensor)).
-call_of(touch(sensor, out)).
-call_of(ir_prox(sensor, out)).
-call_of(sensor_reading(reading, sensor, out)).
-call_of(sensor_value(sensor, mode, index, out)).
-call_of(sensor_values(sensor, mode, out)).
-call_of(ir_remote(sensor, index, out)).
-call_of(ir_beacon(sensor, index, out, out)).
-call_of(ir_dist_cm(sensor, out)).
-call_of(ir_seeker(sensor, out)).
-call_of(ir_seeker(sensor, mode, out, out)).
-call_of(nxt_light(sensor, out)).
-call_of(nxt_ambient(sensor, out)).
-call_of(nxt_sound(sensor, out)).
-call_of(temperature(sensor, out)).
-call_of(target_temperature(sensor, out)).
-call_of(pressure(sensor, out)).
-call_of(compass(sensor, out)).
-call_of(ht_color(sensor, out)).
-call_of(ht_color_rgb(sensor, out)).
-call_of(ht_gyro_rate(sensor, out)).
-call_of(angle_deg(sensor, out)).
-call_of(angle_total(sensor, out)).
-call_of(angle_rpm(sensor, out)).
-call_of(light_row(sensor, out)).
-call_of(sensor_info(sensor, out)).
-call_of(ht_eopd(sensor, mode, out)).
-call_of(acceleration(sensor, out, out, out)).
-call_of(rotation_rate(sensor, out, out, out)).
-call_of(tilt(sensor, out, out, out)).
-call_of(magnetic_field(sensor, out, out, out)).
-call_of(line_leader(sensor, out, out)).
-call_of(energy_meter(sensor, out, out, out)).
-call_of(sensor_mode(out, mode, out, out, out, out)).
-call_of(sensor_type(out, out)).
-call_of(sensor_command(sensor, mode)).
-call_of(adjust_val(sensor, index, out)).
-call_of(motor_run(port, number)).
-call_of(motor_run(port, number, number, quick)).
-call_of(motors_run(runs)).
-call_of(motors_turn(moves, quick)).
-call_of(motor_start(port)).
-call_of(motor_stop(port)).
-call_of(motor_stop(port, action)).
-call_of(motor_reset(port)).
-call_of(run_forever(port, number)).
-call_of(speed_adjust(number, port, out)).
-call_of(motor_wait_while(port, flag)).
-call_of(motor_wait(port, options, out)).
-call_of(motor_run_timed(port, number, seconds, quick)).
-call_of(motor_run_to(port, number, number, quick)).
-call_of(motor_run_direct(port, number)).
-call_of(linear_actuator(port)).
-call_of(motor_position(port, number)).
-call_of(motor_speed(port, out)).
-call_of(motor_gear(port, number)).
-call_of(motor_duty(port, out)).
-call_of(motor_polarity(port, polarity)).
-call_of(motor_ramps(port, number, number)).
-call_of(motor_speed_pid(port, pid)).
-call_of(motor_hold_pid(port, pid)).
-call_of(dc_motor(dc)).
-call_of(dc_motor_run(dc, number)).
-call_of(dc_motor_run_timed(dc, number, seconds, quick)).
-call_of(dc_motor_run_direct(dc, number)).
-call_of(dc_motor_stop(dc)).
-call_of(dc_motor_stop(dc, action)).
-call_of(dc_motor_duty(dc, out)).
-call_of(dc_motor_states(dc, out)).
-call_of(dc_motor_polarity(dc, polarity)).
-call_of(dc_motor_ramps(dc, number, number)).
-call_of(dc_motor_attribute(dc, attribute, number)).
-call_of(servo_motor_position(servo, number)).
-call_of(servo_motor_angle(servo, number)).
-call_of(servo_motor_float(servo)).
-call_of(servo_motor_polarity(servo, polarity)).
-call_of(servo_motor_rate(servo, number)).
-call_of(servo_motor_pulses(servo, number, number, number)).
-call_of(servo_motor_attribute(servo, attribute, number)).
-call_of(ev3_time(out)).
-call_of(stopwatch(out)).
-call_of(elapsed(watch, out)).
-call_of(led(light)).
-call_of(led(light, colour)).
-call_of(led_trigger(light, trigger)).
-call_of(led_triggers(light, out)).
-call_of(led_blink(light, number, number)).
-call_of(battery(key, out)).
-call_of(lego_port(lego_port)).
-call_of(port_mode(lego_port, mode)).
-call_of(port_modes(lego_port, out)).
-call_of(port_status(lego_port, out)).
-call_of(port_device(lego_port, type)).
-call_of(ev3_dev(file)).
-call_of(button(button)).
-call_of(button_wait(button, event, at_once)).
-call_of(play(file)).
-call_of(play(file, options)).
-call_of(sound_wait).
-call_of(volume(number)).
-call_of(sound_stop).
-call_of(screen_clear).
-call_of(screen_show).
-call_of(screen_point(number, number)).
-call_of(screen_point(number, number, options)).
-call_of(screen_line(number, number, number, number)).
-call_of(screen_line(number, number, number, number, options)).
-call_of(screen_rectangle(number, number, number, number)).
-call_of(screen_rectangle(number, number, number, number, options)).
-call_of(screen_circle(number, number, number)).
-call_of(screen_circle(number, number, number, options)).
-call_of(screen_arc(number, number, number, number, number)).
-call_of(screen_arc(number, number, number, number, number, options)).
-call_of(screen_text(number, number, trigger)).
-call_of(screen_text(number, number, trigger, options)).
-call_of(screen_image(number, number, file)).
-call_of(set_robot(number, number, port, port)).
-call_of(set_robot(number, number, port, port, options)).
-call_of(go(number)).
-call_of(turn(number)).
-call_of(ev3_sysfs(file)).
-
-% Those that wait, where nothing moves: with the first argument odd only.
-call_of(motor_run(port, number, out)).
-call_of(motor_wait_until(port, out)).
-call_of(go(number, out)).
-call_of(go_cm(number, out)).
-call_of(turn(number, out)).
-
+call_of(Call) :-
+    calls(Calls),
+    member(Call, Calls).
 call_of(Call) :-
     \+ current_tree(mount),
     call_for_seconds(Call).
 
+% Calls that return at once on a tree where nothing moves.
+calls([
+    subsystem_detect(port, type, out, pattern), file_read(file, out),
+    file_write(file, number), tacho_motor(port), tacho_motor(port, out),
+    tacho_motor(port, out, out), ev3_large_motor(port),
+    ev3_medium_motor(port), nxt_motor(port), servo_motor(port),
+    lego_sensor(sensor), lego_sensor(sensor, out),
+    lego_sensor(sensor, out, out), motor_attribute(port, attribute, number),
+    sensor_attribute(sensor, attribute, out), command(port, command),
+    command_file(port, out), speed(port, out), speed_file(port, out),
+    speed_sp(port, number), speed_sp_file(port, out), max_speed(port, out),
+    max_speed_file(port, out), position(port, number),
+    position_file(port, out), position_sp(port, number),
+    position_sp_file(port, out), state(port, out), state_file(port, out),
+    motor_states(port, out), mode(sensor, mode), mode_file(sensor, out),
+    value(sensor, index, out), value_file(sensor, index, out),
+    decimals(sensor, out), decimals_file(sensor, out), light_sensor(sensor),
+    ultrasonic_sensor(sensor), gyro_sensor(sensor), touch_sensor(sensor),
+    infrared_sensor(sensor), col_ambient(sensor, out),
+    col_reflect(sensor, out), col_color(sensor, out),
+    col_rgb_raw(sensor, out), col_rgb_raw(sensor, out, out, out),
+    us_dist_cm(sensor, out), us_dist_inches(sensor, out),
+    us_listen(sensor, out), gyro_ang(sensor, out), gyro_rate(sensor, out),
+    gyro_ang_rate(sensor, out, out), gyro_reset(sensor), touch(sensor, out),
+    ir_prox(sensor, out), sensor_reading(reading, sensor, out),
+    sensor_value(sensor, mode, index, out), sensor_values(sensor, mode, out),
+    ir_remote(sensor, index, out), ir_beacon(sensor, index, out, out),
+    ir_dist_cm(sensor, out), ir_seeker(sensor, out),
+    ir_seeker(sensor, mode, out, out), nxt_light(sensor, out),
+    nxt_ambient(sensor, out), nxt_sound(sensor, out),
+    temperature(sensor, out), target_temperature(sensor, out),
+    pressure(sensor, out), compass(sensor, out), ht_color(sensor, out),
+    ht_color_rgb(sensor, out), ht_gyro_rate(sensor, out),
+    angle_deg(sensor, out), angle_total(sensor, out), angle_rpm(sensor, out),
+    light_row(sensor, out), sensor_info(sensor, out),
+    ht_eopd(sensor, mode, out), acceleration(sensor, out, out, out),
+    rotation_rate(sensor, out, out, out), tilt(sensor, out, out, out),
+    magnetic_field(sensor, out, out, out), line_leader(sensor, out, out),
+    energy_meter(sensor, out, out, out),
+    sensor_mode(out, mode, out, out, out, out), sensor_type(out, out),
+    sensor_command(sensor, mode), adjust_val(sensor, index, out),
+    motor_run(port, number), motor_run(port, number, number, quick),
+    motors_run(runs), motors_turn(moves, quick), motor_start(port),
+    motor_stop(port), motor_stop(port, action), motor_reset(port),
+    run_forever(port, number), speed_adjust(number, port, out),
+    motor_wait_while(port, flag), motor_wait(port, options, out),
+    motor_run_timed(port, number, seconds, quick),
+    motor_run_to(port, number, number, quick), motor_run_direct(port, number),
+    linear_actuator(port), motor_position(port, number),
+    motor_speed(port, out), motor_gear(port, number), motor_duty(port, out),
+    motor_polarity(port, polarity), motor_ramps(port, number, number),
+    motor_speed_pid(port, pid), motor_hold_pid(port, pid), dc_motor(dc),
+    dc_motor_run(dc, number), dc_motor_run_timed(dc, number, seconds, quick),
+    dc_motor_run_direct(dc, number), dc_motor_stop(dc),
+    dc_motor_stop(dc, action), dc_motor_duty(dc, out),
+    dc_motor_states(dc, out), dc_motor_polarity(dc, polarity),
+    dc_motor_ramps(dc, number, number),
+    dc_motor_attribute(dc, attribute, number),
+    servo_motor_position(servo, number), servo_motor_angle(servo, number),
+    servo_motor_float(servo), servo_motor_polarity(servo, polarity),
+    servo_motor_rate(servo, number),
+    servo_motor_pulses(servo, number, number, number),
+    servo_motor_attribute(servo, attribute, number), ev3_time(out),
+    stopwatch(out), elapsed(watch, out), led(light), led(light, colour),
+    led_trigger(light, trigger), led_triggers(light, out),
+    led_blink(light, number, number), battery(key, out), lego_port(lego_port),
+    port_mode(lego_port, mode), port_modes(lego_port, out),
+    port_status(lego_port, out), port_device(lego_port, type), ev3_dev(file),
+    button(button), button_wait(button, event, at_once), play(file),
+    play(file, options), sound_wait, volume(number), sound_stop, screen_clear,
+    screen_show, screen_point(number, number),
+    screen_point(number, number, options),
+    screen_line(number, number, number, number),
+    screen_line(number, number, number, number, options),
+    screen_rectangle(number, number, number, number),
+    screen_rectangle(number, number, number, number, options),
+    screen_circle(number, number, number),
+    screen_circle(number, number, number, options),
+    screen_arc(number, number, number, number, number),
+    screen_arc(number, number, number, number, number, options),
+    screen_text(number, number, trigger),
+    screen_text(number, number, trigger, options),
+    screen_image(number, number, file), set_robot(number, number, port, port),
+    set_robot(number, number, port, port, options), go(number), turn(number),
+    ev3_sysfs(file) ]).
+
+% Those that wait, where nothing moves: with the first argument odd only.
+calls([ motor_run(port, number, out), motor_wait_until(port, out),
+        go(number, out), go_cm(number, out), turn(number, out) ]).
+
 % Without arguments, or that hold what was said before.
-call_of(stop_all_motors).
-call_of(stop).
-call_of(ev3_devices).
-call_of(robot(out, out, out, out)).
+calls([ stop_all_motors, stop, ev3_devices, robot(out, out, out, out) ]).
 
 % Goal is a call with one argument odd.
 odd_call(Goal) :-
@@ -291,20 +190,12 @@ called(Name/Arity) :-
 % These wait for as long as one likes, or write files of any name: see
 % test_buttons.pl, test_sound.pl, test_screen.pl, test_time.pl, test_motors.pl
 % and test_sensor_wait.pl.
-called_elsewhere(button_events/1).
-called_elsewhere(button_wait/2).
-called_elsewhere(motor_run_until_stalled/2).
-called_elsewhere(motor_run_until_stalled/3).
-called_elsewhere(tone/2).
-called_elsewhere(tone/3).
-called_elsewhere(say/2).
-called_elsewhere(sensor_wait/1).
-called_elsewhere(sensor_wait/2).
-called_elsewhere(wait/1).
-called_elsewhere(tones/1).
-called_elsewhere(tones/2).
-called_elsewhere(say/1).
-called_elsewhere(screen_png/1).
+called_elsewhere(PI) :-
+    member(PI,
+           [ button_events/1, button_wait/2, motor_run_until_stalled/2,
+             motor_run_until_stalled/3, tone/2, tone/3, say/2,
+             sensor_wait/1, sensor_wait/2, wait/1, tones/1, tones/2,
+             say/1, screen_png/1 ]).
 
 test(whatever_is_thrown_is_an_iso_error_that_names_what_was_called,
      [forall(tree(Tree)), true(Bad == [])]) :-
@@ -406,9 +297,7 @@ iso(system_error(_)).
 
 :- end_tests(any_terms).
 
-                /*******************************
-                *          ANY TEXTS           *
-                *******************************/
+% ---------------- ANY TEXTS
 
 % A driver that has gone mad, in any tree.
 
@@ -490,9 +379,7 @@ test(a_full_disk_throws, [ condition(exists_file('/dev/full')),
 
 :- end_tests(any_texts).
 
-                /*******************************
-                *          ANY FILES           *
-                *******************************/
+% ---------------- ANY FILES
 
 % What no kernel shows, in the place of an attribute.
 
@@ -661,9 +548,7 @@ test(a_text_of_a_page_is_written_whole, true(Length == 4096)) :-
 
 :- end_tests(any_files).
 
-                /*******************************
-                *       FILES OF A PROGRAM     *
-                *******************************/
+% ---------------- FILES OF A PROGRAM
 
 % What a program names as a file that is read or written.
 :- begin_tests(files_of_a_program).
@@ -735,9 +620,7 @@ test(no_file_has_a_name_with_a_nul, true(Wrong == [])) :-
 
 :- end_tests(files_of_a_program).
 
-                /*******************************
-                *        TORN VALUES           *
-                *******************************/
+% ---------------- TORN VALUES
 
 :- begin_tests(torn_values).
 

@@ -1,6 +1,5 @@
 :- use_module('../support/trees').
 :- use_module('../support/child').
-:- use_module(library(plunit)).
 
 % The report of examples/brick_check.pl on a tree of these devices. A motor is
 % left stopped, a sensor in the mode it was in.

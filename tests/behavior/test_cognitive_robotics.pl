@@ -4,9 +4,7 @@
 :- use_module('../support/cases').
 :- use_module('../support/caves').
 :- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/golog)).
-:- use_module(library(ev3dev/sim)).
 
 :- initialization(load_files(chapter_elevator:example(golog_elevator), [])).
 :- initialization(load_files(chapter_post:example(golog_delivery), [])).

@@ -1,7 +1,6 @@
 % docs/coming-from.md names what there is.
 
 :- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/roadmap)).
@@ -9,9 +8,6 @@
 :- use_module(library(ev3dev/colors)).
 :- use_module(library(ev3dev/console)).
 :- use_module(library(ev3dev/raw)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(readutil)).
-:- use_module(library(lists)).
 :- ensure_loaded('../support/ported').
 
 % The terms in the second column of a table of two columns, below a heading.

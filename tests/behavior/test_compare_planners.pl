@@ -3,12 +3,6 @@
 :- asserta(user:file_search_path(library, prolog)).
 :- asserta(user:file_search_path(example, examples)).
 :- use_module(library(ev3dev/planners)).
-:- use_module(library(aggregate)).
-:- use_module(library(filesex)).
-:- use_module(library(lists)).
-:- use_module(library(option)).
-:- use_module(library(plunit)).
-:- use_module(library(readutil)).
 
 :- initialization(load_files(compare:example(compare_planners), [])).
 

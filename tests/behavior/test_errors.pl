@@ -4,7 +4,6 @@
 :- use_module('../support/libraries').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev/private/help/help_index), []).
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/console)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/golog)).
@@ -25,9 +24,7 @@
 :- use_module(library(ev3dev/localize)).
 :- use_module(library(ev3dev/map)).
 :- use_module(library(ev3dev/rules)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/view)).
-:- use_module(library(lists)).
 
 % A call, and its wrong, unbound and impossible arguments: each is tried alone.
 bad(go_cm(30, 10, []), [foo-1, _-1, 101-none, foo-2, _-3, [sped(5)]-3, [wait(1)]-3]).

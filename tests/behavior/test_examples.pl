@@ -2,9 +2,6 @@
 % names is that of a library that may be loaded beside it; `make demo` starts it.
 
 :- use_module('../support/child').
-:- use_module(library(plunit)).
-:- use_module(library(process)).
-:- use_module(library(readutil)).
 
 :- begin_tests(examples).
 

@@ -6,8 +6,6 @@
 
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev/golog)).
-:- use_module(library(lists)).
-:- use_module(library(plunit)).
 
 :- prolog_load_context(directory, Here),
    atom_concat(Here, '/../support/golog/', Directory),

@@ -1,9 +1,5 @@
 :- use_module('../support/trees').
 :- use_module('../support/child').
-:- use_module(library(ev3dev)).
-:- use_module(library(lists)).
-:- use_module(library(process)).
-:- use_module(library(readutil)).
 
 % The last commands to the motors, once a program is over.
 

@@ -3,8 +3,6 @@
 
 :- asserta(user:file_search_path(library, prolog)).
 :- use_module(library(ev3dev)).
-:- use_module(library(lists)).
-:- use_module(library(plunit)).
 
 :- dynamic costs_a_session/1.
 

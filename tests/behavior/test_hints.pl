@@ -3,13 +3,10 @@
 
 :- use_module('../support/child').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/events), [every/3]).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/raw)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(lists)).
 
 %   The texts of the hints that Goal, which fails, prints in a session that has
 %   had none.

@@ -1,8 +1,6 @@
 % What a call has found the next ones have at once, until it is not so any more.
 
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
-:- use_module(library(lists)).
 :- use_module(library(thread)).
 
 :- begin_tests(known).

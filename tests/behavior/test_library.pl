@@ -1,13 +1,8 @@
 :- use_module('../support/trees').
 :- use_module('../support/child').
 :- use_module('../support/libraries').
-:- use_module(library(lists)).
-:- use_module(library(ev3dev)).
-:- use_module(library(readutil)).
 
-                /*******************************
-                *           EXPORTS            *
-                *******************************/
+% ---------------- EXPORTS
 
 :- begin_tests(exports).
 
@@ -43,9 +38,7 @@ module_of(Library, Module) :-
 
 :- end_tests(exports).
 
-                /*******************************
-                *           LOADING            *
-                *******************************/
+% ---------------- LOADING
 
 :- begin_tests(loading).
 
@@ -106,9 +99,7 @@ tells_directory(Query, Program) :-
 
 :- end_tests(loading).
 
-                /*******************************
-                *      NATIVE PREDICATES       *
-                *******************************/
+% ---------------- NATIVE PREDICATES
 
 :- begin_tests(natives).
 
@@ -157,9 +148,7 @@ line_of(File, Line) :-
 
 :- end_tests(natives).
 
-                /*******************************
-                *          THE BINARY          *
-                *******************************/
+% ---------------- THE BINARY
 
 % A dynamic library names those that it needs in its string table.
 :- begin_tests(binary).

@@ -3,12 +3,6 @@
 :- use_module(library(ev3dev/private/native/library_file)).
 :- use_module('../support/child', [swipl/1]).
 :- use_module('../support/libraries', [public_library/1]).
-:- use_module(library(apply)).
-:- use_module(library(filesex)).
-:- use_module(library(lists)).
-:- use_module(library(plunit)).
-:- use_module(library(process)).
-:- use_module(library(readutil)).
 
 /** <module> Tests: the library that suits, among some that do not
 

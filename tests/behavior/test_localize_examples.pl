@@ -1,12 +1,8 @@
 % The examples of robots that find out where they are do so.
 
-:- use_module('../support/simulation').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/rules), [after/2]).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(lists)).
 
 :- initialization(( load_files(lost:example(lost), []),
                     load_files(grid_lost:example(grid_lost), []),

@@ -1,11 +1,7 @@
 % Moves with ramps on the simulator, which is as treacherous as the kernel.
 
-:- use_module('../support/simulation').
 :- use_module('../support/cases').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(random)).
 
 /*  The kernel ignores a move with ramps if it measures the very speed that is set,
     and starts a timed run again that ended before its ramp. No sequence of moves

@@ -4,17 +4,8 @@
 :- use_module('../support/simulation').
 :- use_module('../support/cases').
 :- use_module('../support/odd_terms').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(apply)).
-:- use_module(library(filesex)).
-:- use_module(library(lists)).
-:- use_module(library(random)).
-:- use_module(library(time)).
 
-                /*******************************
-                *        WHAT IS CALLED        *
-                *******************************/
+% ---------------- WHAT IS CALLED
 
 :- dynamic library_file/1.
 
@@ -57,9 +48,7 @@ left_out(sim_fence_join_).
 left_out(Name) :-
     sub_atom(Name, 0, _, _, grid_).
 
-                /*******************************
-                *           A CALL             *
-                *******************************/
+% ---------------- A CALL
 
 :- dynamic predicates/2.
 
@@ -161,9 +150,7 @@ of_its_goal(error(format(_), _)).
 % us_dist_cm(in1) < 20, where no condition is meant, is Prolog's comparison
 of_its_goal(error(type_error(evaluable, in1/0), context(system:(<)/2, _))).
 
-                /*******************************
-                *            TESTS             *
-                *******************************/
+% ---------------- TESTS
 
 % What writes a file does so in a directory of its own.
 all_wrong(Kind, Wrongs) :-

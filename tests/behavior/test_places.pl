@@ -2,11 +2,8 @@
 % no place is the same error everywhere.
 
 :- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/roadmap)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(lists)).
 
 %   A call for each place that a program gives.
 

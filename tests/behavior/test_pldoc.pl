@@ -2,10 +2,6 @@
 % a site without broken links.
 
 :- asserta(user:file_search_path(library, prolog)).
-:- use_module(library(filesex)).
-:- use_module(library(lists)).
-:- use_module(library(plunit)).
-:- use_module(library(process)).
 
 :- if(( current_prolog_flag(version, Version), Version >= 80200,
         exists_source(library(pldoc)), exists_source(library(http/html_head)) )).

@@ -7,9 +7,6 @@
 :- working_directory(Home, Home),
    atom_concat(Home, prolog, Library),
    asserta(user:file_search_path(library, Library)).
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(readutil)).
 
 :- begin_tests(readme).
 

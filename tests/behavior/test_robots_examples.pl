@@ -2,11 +2,7 @@
 
 :- use_module('../support/cases').
 :- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/bricks)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(aggregate)).
-:- use_module(library(lists)).
 :- use_module(library(thread)).
 
 :- initialization(( load_files(sumo_match:example(sumo_match), []),

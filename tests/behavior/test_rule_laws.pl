@@ -7,8 +7,6 @@
 :- use_module('../support/child').
 :- use_module('../support/rule_laws').
 :- use_module('../support/rule_sets').
-:- use_module(library(apply)).
-:- use_module(library(lists)).
 
 % A law that a seed breaks, the first one.
 broken(Seed, Wrong) :-

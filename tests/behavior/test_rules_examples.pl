@@ -2,12 +2,7 @@
 % tests/sessions/play.py plays what docs/reactive.md shows of them.
 
 :- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/events), [event/2]).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(aggregate)).
-:- use_module(library(lists)).
-:- use_module(library(readutil)).
 
 :- initialization(load_examples).
 

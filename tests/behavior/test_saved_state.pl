@@ -3,8 +3,6 @@
 
 :- use_module('../support/trees').
 :- use_module('../support/child').
-:- use_module(library(ev3dev)).
-:- use_module(library(filesex)).
 
 % The program, saved and then run, ends with Status and prints Output; then outB
 % has had Command.

@@ -1,9 +1,6 @@
 % The examples that need other sensors than the paper's robot has, run.
 
 :- use_module('../support/trees').
-:- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
 :- load_files(thermometer:example(thermometer), []).
 :- load_files(remote_control:example(remote_control), []).
 

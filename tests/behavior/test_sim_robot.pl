@@ -2,9 +2,6 @@
 % robot?
 
 :- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(random)).
 :- use_module(library(sha)).
 
 :- initialization(load_examples).

@@ -4,7 +4,6 @@
 :- use_module('../support/cases').
 :- use_module('../support/child').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
 
 :- begin_tests(threads).
 

@@ -4,15 +4,9 @@
 
 :- use_module('../support/simulation').
 :- use_module('../support/cases').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(random)).
-:- use_module(library(readutil)).
 
-                 /*******************************
-                 *          SCHEDULES           *
-                 *******************************/
+% ---------------- SCHEDULES
 
 % A program by its seed, and what somebody does to the robot meanwhile.
 schedule(Seed, Steps, Faults) :-
@@ -96,9 +90,7 @@ template(fault, sim_add(box(60, 80, 10, 10))).
 template(fault, sim_show(in4, value0, '32767')).
 template(fault, sim_unshow(in4, value0)).
 
-                 /*******************************
-                 *           THE RUN            *
-                 *******************************/
+% ---------------- THE RUN
 
 % The seconds after which the longest of the moves above is over.
 longest(6000).
@@ -209,9 +201,7 @@ after_signal(Seed, Move) :-
                ;   true
                ) )).
 
-                 /*******************************
-                 *            WORLDS            *
-                 *******************************/
+% ---------------- WORLDS
 
 % The facts of a shipped world and robot, one of them spoilt.
 spoilt_world(Seed, World, Robot) :-
@@ -314,9 +304,7 @@ spoilt_text(Count, Codes0, Codes) :-
     Next is Count - 1,
     spoilt_text(Next, Codes1, Codes).
 
-                 /*******************************
-                 *            LEAKS             *
-                 *******************************/
+% ---------------- LEAKS
 
 % A call of each kind: one that reads, runs, waits, fails, throws.
 hot(us_dist_cm(_, _)).
@@ -365,9 +353,7 @@ resident(Bytes) :-
     number_string(Count, Pages),
     Bytes is Count * 4096.
 
-                 /*******************************
-                 *            TESTS             *
-                 *******************************/
+% ---------------- TESTS
 
 all_wrong(Wrong_2, Wrongs) :-
     schedules(First, Last),

@@ -2,13 +2,10 @@
 
 :- use_module('../support/trees').
 :- use_module('../support/child').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/planners)).
 :- use_module(library(ev3dev/roadmap)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(lists)).
 
 :- begin_tests(tracing).
 

@@ -2,8 +2,6 @@
 
 :- use_module('../support/simulation').
 :- use_module('../support/dev', [bytes_of/2]).
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
 
 :- initialization(load_files(traffic_light:example(traffic_light), [])).
 

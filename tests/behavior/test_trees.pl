@@ -2,10 +2,6 @@
 % process on its virtual clock, and the simulator's files through FUSE.
 
 :- use_module('../support/trees').
-:- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(filesex)).
 
 :- begin_tests(devices).
 

@@ -1,6 +1,4 @@
 :- use_module('../support/trees').
-:- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
 
 % A plain tree with a battery of that name and these files.
 powered(Name, Files, Goal) :-

@@ -3,15 +3,9 @@
 :- use_module('../support/child').
 :- use_module('../support/redis').
 :- use_module('../support/trees').
-:- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/events), [on/2 as when_, both/2, every/3]).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(apply)).
-:- use_module(library(lists)).
-:- use_module(library(readutil)).
 
 % Call Goal with simulated bricks of these names, which end with it.
 with_bricks(Names, Goal) :-

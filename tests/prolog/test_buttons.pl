@@ -1,8 +1,5 @@
 :- use_module('../support/dev').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(time)).
 
 with_keys(Events, Goal) :-
     events_of(Events, Bytes),

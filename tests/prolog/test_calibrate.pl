@@ -3,10 +3,7 @@
 :- use_module('../support/robots').
 :- use_module('../support/simulation').
 :- use_module('../support/old_prolog').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/drive)).
-:- use_module(library(lists)).
 
 %   One wheel is 5 % larger than the other, and the axle 3 % off.
 uncalibrated(Seed, Gyro, Robot) :-

@@ -1,8 +1,5 @@
-:- use_module('../support/simulation').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/colors)).
-:- use_module(library(ev3dev/sim)).
 
 shows(Port, R, G, B) :-
     put_attribute(Port, mode, 'RGB-RAW'),

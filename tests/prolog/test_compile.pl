@@ -1,10 +1,5 @@
 % What ev3dev_compile/0 makes is used where it is good, and never where not.
 
-:- use_module(library(filesex)).
-:- use_module(library(lists)).
-:- use_module(library(plunit)).
-:- use_module(library(process)).
-:- use_module(library(readutil)).
 
 :- prolog_load_context(directory, Tests),
    atom_concat(Tests, '/../..', Up),
@@ -17,9 +12,7 @@
     pack_under_test/1,
     copy/1.
 
-                /*******************************
-                *            PACKS             *
-                *******************************/
+% ---------------- PACKS
 
 % A copy of the pack in a folder of its own.
 make_copy :-
@@ -114,9 +107,7 @@ with_contents(File, Bytes) :-
         format(Out, '~s', [Bytes]),
         close(Out)).
 
-                /*******************************
-                *          PROCESSES           *
-                *******************************/
+% ---------------- PROCESSES
 
 % run(+Goal, -Result): Result is what a Prolog that finds the copy printed, and
 % its status before it.

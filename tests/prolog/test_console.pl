@@ -1,8 +1,6 @@
 :- use_module('../support/simulation').
 :- use_module('../support/dev', [bytes_of/2]).
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/console)).
-:- use_module(library(ev3dev/sim)).
 
 picture(Bytes) :-
     tmp_file(picture, File),

@@ -1,10 +1,6 @@
 :- use_module('../support/trees').
 :- use_module('../support/child').
-:- use_module('../support/simulation').
 :- use_module('../support/old_prolog').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(time)).
 
 % A motor without sensor at outA of Tree.
 in_tree(Tree, Goal) :-

@@ -1,5 +1,4 @@
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
 
 :- begin_tests(ev3_devices).
 

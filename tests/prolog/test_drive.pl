@@ -2,20 +2,10 @@
 
 :- use_module('../support/trees').
 :- use_module('../support/robots').
-:- use_module('../support/simulation').
 :- use_module('../support/old_prolog').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/drive)).
-:- use_module(library(aggregate)).
-:- use_module(library(lists)).
-:- use_module(library(random)).
-:- use_module(library(readutil)).
-:- use_module(library(time)).
 
-                /*******************************
-                *          ARGUMENTS           *
-                *******************************/
+% ---------------- ARGUMENTS
 
 %   A move with its last argument left to be the options.
 a_move(go_cm(30, 10)).
@@ -179,9 +169,7 @@ take_out(mount, Port) :-
     sim_unplug(Port),
     eventually(\+ tacho_motor(Port)).
 
-                /*******************************
-                *         EARLY ENDS           *
-                *******************************/
+% ---------------- EARLY ENDS
 
 :- begin_tests(early_ends).
 
@@ -278,9 +266,7 @@ pull(At, Port) :-
         pull(At, Port)
     ).
 
-                /*******************************
-                *            MOVES             *
-                *******************************/
+% ---------------- MOVES
 
 % Either direction of a half turn is right.
 at(X, Y, Heading) :-
@@ -458,9 +444,7 @@ radius(X1-Y1, X2-Y2, X3-Y3, R) :-
     Area is abs((X2-X1)*(Y3-Y1) - (X3-X1)*(Y2-Y1)) / 2,
     R is A * B * C / (4 * Area).
 
-                /*******************************
-                *          THE ROBOT           *
-                *******************************/
+% ---------------- THE ROBOT
 
 :- begin_tests(robot).
 
@@ -495,9 +479,7 @@ test(go_and_turn_without_this_library_know_of_it, true(S == '525'-'-525')) :-
 
 :- end_tests(robot).
 
-                /*******************************
-                *          ACCURACY            *
-                *******************************/
+% ---------------- ACCURACY
 
 % Twenty seeds. One motor is 5 % stronger than the other, both tremble, their
 % encoders err by half a degree, the gyro trembles by 0.3 degrees and drifts by
@@ -585,9 +567,7 @@ ten_places_and_back :-
     near(X1, 0, 3),
     near(Y1, 0, 3).
 
-                /*******************************
-                *            RUNS              *
-                *******************************/
+% ---------------- RUNS
 
 :- begin_tests(runs).
 
@@ -611,9 +591,7 @@ test(nothing_is_called_when_the_robot_rests, true(T1 == T0)) :-
 
 :- end_tests(runs).
 
-                /*******************************
-                *          EXAMPLES            *
-                *******************************/
+% ---------------- EXAMPLES
 
 :- initialization(forall(member(Name, [square, slalom, line_following]),
                          load_files(Name:example(Name), []))).
@@ -670,9 +648,7 @@ beside_pole(Trace, Y, Side) :-
                   ( member(_-pose(X, Y1, _), Trace), D is abs(Y1 - Y) ),
                   min(_, Side)).
 
-                /*******************************
-                *            COST              *
-                *******************************/
+% ---------------- COST
 
 :- begin_tests(cost).
 

@@ -1,11 +1,6 @@
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
-:- use_module(library(filesex)).
-:- use_module(library(lists)).
 
-                /*******************************
-                *           DEVICES            *
-                *******************************/
+% ---------------- DEVICES
 
 :- begin_tests(devices).
 
@@ -94,9 +89,7 @@ add_file(Directory, Name, Text) :-
                        format(Out, "~w~n", [Text]),
                        close(Out)).
 
-                /*******************************
-                *          ATTRIBUTES          *
-                *******************************/
+% ---------------- ATTRIBUTES
 
 :- begin_tests(attributes).
 
@@ -248,9 +241,7 @@ test(a_value_file_needs_a_number,
 
 :- end_tests(attribute_files).
 
-                /*******************************
-                *       REFUSED BY KERNEL      *
-                *******************************/
+% ---------------- REFUSED BY KERNEL
 
 % In a plain tree a file of the kernel's own stands in for an attribute: it
 % takes integers from -1000 to 1000, and refuses others as a motor does.
@@ -291,9 +282,7 @@ test(the_message_names_the_file_and_gives_the_kernels_words,
 
 :- end_tests(refused_by_the_kernel).
 
-                /*******************************
-                *       UNPLUG AND REPLUG      *
-                *******************************/
+% ---------------- UNPLUG AND REPLUG
 
 :- begin_tests(replug).
 

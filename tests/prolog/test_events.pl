@@ -1,12 +1,7 @@
 :- use_module('../support/child').
 :- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/events)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(lists)).
-:- use_module(library(aggregate)).
-:- use_module(library(apply)).
 
 % What the test makes true, and what happens.
 :- dynamic up/1, done/2, printed/1.
@@ -401,9 +396,7 @@ test(waits_do_not_add_up) :-
 
 :- end_tests(branches).
 
-                 /*******************************
-                 *            PROMPT            *
-                 *******************************/
+% ---------------- PROMPT
 
 :- begin_tests(prompt).
 

@@ -1,19 +1,13 @@
 % library(ev3dev/exercise): what is earned, that it is the same each time, and that no program
 % gets more than its due.
 
-:- use_module(library(plunit)).
 :- use_module('../support/cases').
 :- use_module('../support/cheats').
 :- use_module('../support/child').
 :- use_module('../support/redis').
-:- use_module('../support/simulation').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/exercise)).
 :- use_module(library(ev3dev/sim_fenced), [can_enclose/0]).
-:- use_module(library(filesex)).
-:- use_module(library(process)).
-:- use_module(library(readutil)).
 
 exercise_lines([ ":- use_module(library(ev3dev/exercise)).",
                  "exercise(hundred, [seconds(8), seeds(1-3), cpu(1), sleep(5), memory(1000)]).",

@@ -1,10 +1,6 @@
 :- use_module('../support/child').
 :- use_module('../support/dev').
-:- use_module('../support/simulation').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(readutil)).
 
 :- begin_tests(ev3_dev).
 

@@ -4,16 +4,9 @@
 :- use_module('../support/simulation').
 :- use_module('../support/cases').
 :- use_module('../support/old_prolog').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/planners), [planner/1]).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(aggregate)).
-:- use_module(library(apply)).
-:- use_module(library(lists)).
-:- use_module(library(plunit)).
-:- use_module(library(random)).
 
 :- initialization(load_files(grid_navigation:example(grid_navigation), [])).
 

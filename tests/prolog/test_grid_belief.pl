@@ -1,16 +1,10 @@
 % library(ev3dev/grid_belief): probabilities by hand on small maps, and a robot that finds out
 % where it is.
 
-:- use_module('../support/simulation').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/grid_belief)).
-:- use_module(library(aggregate)).
-:- use_module(library(lists)).
-:- use_module(library(readutil)).
 
 %   Three cells in a row: the states that look along it see 0, 1 or 2 free cells.
 row(Map) :-

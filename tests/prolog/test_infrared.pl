@@ -1,10 +1,6 @@
 % Beacons, remote controls and what sees them, over three trees.
 
 :- use_module('../support/trees').
-:- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(lists)).
 
 %!  with_ir(+Tree, +Values, +World, :Goal)
 %

@@ -1,9 +1,6 @@
 :- use_module('../support/child').
 :- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/jog)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(lists)).
 
 %   Call Goal while these are the codes that come from the terminal.
 with_keys(Codes, Goal) :-

@@ -1,18 +1,12 @@
 % The journal: what was done, when, and why; and again.
 
 :- use_module('../support/trees').
-:- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/events), [both/2]).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/journal)).
 :- use_module(library(ev3dev/navigation)).
 :- use_module(library(ev3dev/odometry)).
-:- use_module(library(apply)).
-:- use_module(library(lists)).
-:- use_module(library(readutil)).
 
 %   What why/1 prints.
 

@@ -1,13 +1,8 @@
 % Tests for library(ev3dev/map).
-:- use_module(library(plunit)).
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/localize)).
 :- use_module(library(ev3dev/map)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(aggregate)).
-:- use_module(library(lists)).
 :- use_module(library(sgml)).
 
 :- meta_predicate in_room(0), in_world(+, 0).

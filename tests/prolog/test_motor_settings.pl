@@ -1,8 +1,5 @@
 :- use_module('../support/trees').
-:- use_module('../support/simulation').
 :- use_module('../support/old_prolog').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
 
 plain(Goal) :-
     with_tree(plain, [outB-'lego-ev3-l-motor'], once(Goal)).

@@ -1,15 +1,28 @@
 :- use_module('../support/trees').
-:- use_module('../support/simulation').
 :- use_module('../support/old_prolog').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/events), [every/2, event_cancel/1]).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(lists)).
-:- use_module(library(time)).
 
-                /*******************************
-                *            SPEED             *
-                *******************************/
+:- begin_tests(each_predicate).
+
+test(fails_without_a_motor,
+     [ forall(( tree(Tree),
+                member(Goal, [ motor_run(outB, 50), motor_run(outB, 50, 90),
+                               motor_start(outB), run_forever(outB, 300),
+                               speed_adjust(50, outB, _), motor_stop(outB),
+                               motor_reset(outB) ]) )),
+       fail ]) :-
+    with_tree(Tree, [], Goal).
+test(throws_for_what_is_unbound,
+     [ forall(( tree(Tree),
+                member(Goal, [ motor_run(_, 50), motor_run(outB, _),
+                               motor_start(_), speed_adjust(_, outB, _),
+                               motor_stop(_), motor_reset(_) ]) )),
+       error(instantiation_error, _) ]) :-
+    with_tree(Tree, Goal).
+
+:- end_tests(each_predicate).
+
+% ---------------- SPEED
 
 :- begin_tests(motor_run_2).
 
@@ -30,8 +43,6 @@ test(takes_either_spelling_of_a_port, [forall(tree(Tree))]) :-
 test(takes_an_expression_for_speed, [forall(tree(Tree))]) :-
     with_tree(Tree, ( motor_run(outB, min(50, 100 / 4)),
                       get_attribute(outB, speed_sp, '262') )).
-test(fails_without_a_motor, [forall(tree(Tree)), fail]) :-
-    with_tree(Tree, [], motor_run(outB, 50)).
 test(fails_at_an_impossible_speed_and_writes_nothing,
      [ forall(( tree(Tree),
                 member(Speed0, [101, -101, 1.0e308, -1.0e308, inf, nan, 10**400]),
@@ -39,12 +50,6 @@ test(fails_at_an_impossible_speed_and_writes_nothing,
        true(W == []) ]) :-
     with_tree(Tree, ( \+ motor_run(outB, Speed),
                       written(W) )).
-test(throws_for_an_unbound_port,
-     [forall(tree(Tree)), error(instantiation_error, _)]) :-
-    with_tree(Tree, motor_run(_, 50)).
-test(throws_for_an_unbound_speed,
-     [forall(tree(Tree)), error(instantiation_error, _)]) :-
-    with_tree(Tree, motor_run(outB, _)).
 test(throws_for_a_speed_that_is_no_number,
      [ forall(( tree(Tree), member(Speed, [fast, f(x), 1 + fast]) )),
        error(type_error(evaluable, _), _) ]) :-
@@ -102,11 +107,6 @@ test(runs_at_the_speed_set_before,
     with_tree(Tree, ( speed_sp(outB, 300),
                       motor_start(outB),
                       written(outB, W) )).
-test(fails_without_a_motor, [forall(tree(Tree)), fail]) :-
-    with_tree(Tree, [], motor_start(outB)).
-test(throws_for_an_unbound_port,
-     [forall(tree(Tree)), error(instantiation_error, _)]) :-
-    with_tree(Tree, motor_start(_)).
 
 :- end_tests(motor_start).
 
@@ -126,8 +126,6 @@ test(fails_beyond_max_speed_and_writes_nothing,
        true(W == []) ]) :-
     with_tree(Tree, ( \+ run_forever(outB, Speed),
                       written(W) )).
-test(fails_without_a_motor, [forall(tree(Tree)), fail]) :-
-    with_tree(Tree, [], run_forever(outB, 300)).
 test(throws_for_what_is_no_number,
      [ forall(( tree(Tree),
                 member(Speed-Error, [ _-instantiation_error,
@@ -147,17 +145,10 @@ test(is_the_papers_formula,
 test(an_unbound_port_enumerates,
      [forall(tree(Tree)), all(P-S == [outA-780, outB-525, outC-525, outD-525])]) :-
     with_tree(Tree, speed_adjust(50, P, S)).
-test(fails_without_a_motor, [forall(tree(Tree)), fail]) :-
-    with_tree(Tree, [], speed_adjust(50, outB, _)).
-test(throws_for_an_unbound_percentage,
-     [forall(tree(Tree)), error(instantiation_error, _)]) :-
-    with_tree(Tree, speed_adjust(_, outB, _)).
 
 :- end_tests(speed_adjust).
 
-                /*******************************
-                *             STOP             *
-                *******************************/
+% ---------------- STOP
 
 :- begin_tests(stop).
 
@@ -171,8 +162,6 @@ test(stops_as_asked, [ forall(( tree(Tree),
     with_tree(Tree, ( motor_stop('ev3-ports:outB', Action),
                       get_attribute(outB, stop_action, A),
                       get_attribute(outB, command, C) )).
-test(fails_without_a_motor, [forall(tree(Tree)), fail]) :-
-    with_tree(Tree, [], motor_stop(outB)).
 test(refuses_another_action,
      [ forall(( tree(Tree),
                 member(Action-Error, [ _-instantiation_error,
@@ -181,9 +170,6 @@ test(refuses_another_action,
        true(W == []) ]) :-
     with_tree(Tree, ( catch(motor_stop(outB, Action), error(Error, _), true),
                       written(W) )).
-test(throws_for_an_unbound_port,
-     [forall(tree(Tree)), error(instantiation_error, _)]) :-
-    with_tree(Tree, motor_stop(_)).
 test(all_motors_are_stopped_whoever_started_them,
      [forall(tree(Tree)), true(Cs == [outA-stop, outB-stop, outC-stop, outD-stop])]) :-
     with_tree(Tree, ( put_attribute(outD, command, 'run-forever'),
@@ -203,17 +189,10 @@ test(reset_is_left_to_the_motor,
      [forall(tree(Tree)), true(W == [command=reset])]) :-
     with_tree(Tree, ( motor_reset(outB),
                       written(outB, W) )).
-test(reset_fails_without_a_motor, [forall(tree(Tree)), fail]) :-
-    with_tree(Tree, [], motor_reset(outB)).
-test(reset_throws_for_an_unbound_port,
-     [forall(tree(Tree)), error(instantiation_error, _)]) :-
-    with_tree(Tree, motor_reset(_)).
 
 :- end_tests(stop).
 
-                /*******************************
-                *            MOVES             *
-                *******************************/
+% ---------------- MOVES
 
 :- begin_tests(motor_run_3).
 
@@ -264,8 +243,6 @@ test(an_impossible_move_fails_and_writes_nothing,
        true(W == []) ]) :-
     with_tree(Tree, ( \+ motor_run(outB, Speed, Angle),
                       written(W) )).
-test(fails_without_a_motor, [forall(tree(Tree)), fail]) :-
-    with_tree(Tree, [], motor_run(outB, 50, 90)).
 test(what_is_no_number_throws,
      [ forall(( tree(Tree),
                 member(Speed-Angle-Error,
@@ -412,9 +389,7 @@ test(what_is_no_list_of_moves_throws,
 
 :- end_tests(motors_turn).
 
-                /*******************************
-                *            WAITS             *
-                *******************************/
+% ---------------- WAITS
 
 :- begin_tests(motor_wait).
 
@@ -548,9 +523,7 @@ test(a_signal_that_does_not_throw_goes_on_waiting, [forall(tree(Tree))]) :-
 
 :- end_tests(motor_wait_flag).
 
-                /*******************************
-                *         INTERRUPTED          *
-                *******************************/
+% ---------------- INTERRUPTED
 
 :- begin_tests(interrupted).
 
@@ -579,9 +552,7 @@ test(unplugged_on_the_way_stops_the_others,
 
 :- end_tests(interrupted).
 
-                /*******************************
-                *      TIMES AND PLACES        *
-                *******************************/
+% ---------------- TIMES AND PLACES
 
 plain(Goal) :-
     with_tree(plain, [outA-'lego-ev3-m-motor', outB-'lego-ev3-l-motor'], once(Goal)).

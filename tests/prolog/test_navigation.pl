@@ -3,12 +3,9 @@
 :- use_module('../support/rooms').
 :- use_module('../support/cases').
 :- use_module('../support/trees/simulated', [simulated_pause/1]).
-:- use_module('../support/simulation').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/roadmap)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(sgml)).
 
 :- initialization(load_files(room_example:example(room_navigation), [])).

@@ -1,11 +1,6 @@
 % Sensors of the NXT and of other makers, over three trees.
 
 :- use_module('../support/trees').
-:- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(aggregate)).
-:- use_module(library(lists)).
 
 %!  shows(Goal, Type, Mode, Raw, Decimals, V, Plain, World, Simulated)
 %

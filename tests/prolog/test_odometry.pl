@@ -2,11 +2,7 @@
 
 :- use_module('../support/trees').
 :- use_module('../support/robots').
-:- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/drive)).
-:- use_module(library(lists)).
 
 :- begin_tests(odometry).
 

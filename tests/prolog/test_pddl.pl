@@ -2,7 +2,6 @@
 :- use_module(library(ev3dev/pddl)).
 :- use_module('../support/cases').
 :- use_module('../support/pddl_validator').
-:- use_module(library(plunit)).
 
 % Ten domains of planning competitions and textbooks, written for these tests
 % in tests/support/pddl. What is found for their problems is checked by another

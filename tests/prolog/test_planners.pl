@@ -4,13 +4,7 @@
 :- use_module('../support/cases').
 :- use_module('../support/old_prolog').
 :- use_module(library(ev3dev/planners)).
-:- use_module(library(aggregate)).
-:- use_module(library(apply)).
 :- use_module(library(assoc)).
-:- use_module(library(lists)).
-:- use_module(library(option)).
-:- use_module(library(plunit)).
-:- use_module(library(random)).
 
 %   A random map with start and goal, the same for the same Seed: three to
 %   ten cells each way, up to 45 % of them obstructed.

@@ -1,12 +1,8 @@
 % library(ev3dev/plnxt), in the simulator.
 
 :- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/plnxt)).
 :- use_module(library(ev3dev/events), [event/2, on/2]).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(aggregate)).
-:- use_module(library(lists)).
 
 :- dynamic seen/1, user:nxt_robot_definition/14, user:nxt_robot_definition/13.
 

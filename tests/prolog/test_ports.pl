@@ -1,7 +1,4 @@
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(time)).
 
 % Ports of Tree.
 in_tree(Tree, Goal) :-

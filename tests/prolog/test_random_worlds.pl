@@ -1,10 +1,7 @@
-:- use_module(library(plunit)).
 :- use_module('../support/cases').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/random_worlds)).
 :- use_module(library(ev3dev/roadmap)).
-:- use_module(library(ev3dev/sim)).
 
 %   Each is a world that the simulator takes, where nothing stands at the start.
 starts(World) :-

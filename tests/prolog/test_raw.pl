@@ -1,11 +1,7 @@
 % Registers of sensors on the I2C bus, and voltages, over three trees.
 
 :- use_module('../support/trees').
-:- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/raw)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(lists)).
 
 :- meta_predicate with_compass(+, 0).
 

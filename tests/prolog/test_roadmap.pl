@@ -3,7 +3,6 @@
 :- use_module('../support/rooms').
 :- use_module('../support/simulation').
 :- use_module('../support/old_prolog').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/roadmap)).
 :- use_module(library(sgml)).

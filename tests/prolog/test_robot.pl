@@ -1,12 +1,8 @@
 :- use_module('../support/trees').
 :- use_module('../support/child').
 :- use_module('../support/simulation', [near/3]).
-:- use_module(library(ev3dev/sim)).
 :- use_module('../support/old_prolog').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/odometry), [pose/3]).
-:- use_module(library(lists)).
-:- use_module(library(time)).
 
 % The paper's robot, without a gyro unless one is asked for.
 with_robot(Tree, Goal) :-
@@ -47,9 +43,7 @@ running :-
     runs(outB),
     runs(outC).
 
-                /*******************************
-                *          DESCRIPTION         *
-                *******************************/
+% ---------------- DESCRIPTION
 
 :- begin_tests(set_robot).
 
@@ -121,9 +115,7 @@ test(stop_stops_all_motors,
 
 :- end_tests(no_robot).
 
-                /*******************************
-                *            GOING             *
-                *******************************/
+% ---------------- GOING
 
 :- begin_tests(go).
 
@@ -265,9 +257,7 @@ test(a_blocked_wheel_stops_both_and_fails,
 
 :- end_tests(interrupted).
 
-                /*******************************
-                *           TURNING            *
-                *******************************/
+% ---------------- TURNING
 
 :- begin_tests(turn_without_gyro).
 
@@ -369,9 +359,7 @@ test(an_impossible_turn_fails_and_writes_nothing,
 
 :- end_tests(turn_with_gyro).
 
-                /*******************************
-                *          ONE DRIVE           *
-                *******************************/
+% ---------------- ONE DRIVE
 
 %   What a program prints that makes a move of each kind, once it has loaded a
 %   library: where the robot is then, and when.

@@ -1,17 +1,10 @@
-:- use_module('../support/simulation').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/journal)).
 :- use_module(library(ev3dev/rules),
               except([on/2])).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(apply)).
-:- use_module(library(lists)).
 
-                 /*******************************
-                 *            SUPPORT           *
-                 *******************************/
+% ---------------- SUPPORT
 
 % Guards that the test makes true, and what happens.
 :- dynamic up/1, value/1, done/2.
@@ -85,9 +78,7 @@ behave_for(Seconds, Rules) :-
 behave_for(Seconds, Rules, Options) :-
     behave(Rules, [timeout(Seconds), trace(user:note)|Options]).
 
-                 /*******************************
-                 *            CHOICE            *
-                 *******************************/
+% ---------------- CHOICE
 
 :- begin_tests(choice).
 
@@ -203,9 +194,7 @@ reaction(Action, Step, Seconds) :-
 
 :- end_tests(choice).
 
-                 /*******************************
-                 *           ACTIONS            *
-                 *******************************/
+% ---------------- ACTIONS
 
 :- begin_tests(actions).
 
@@ -359,9 +348,7 @@ test(a_guard_must_not_wait,
 
 :- end_tests(actions).
 
-                 /*******************************
-                 *       NESTING, MESSAGES      *
-                 *******************************/
+% ---------------- NESTING, MESSAGES
 
 :- begin_tests(nested).
 

@@ -1,11 +1,7 @@
 :- use_module('../support/dev').
 :- use_module('../support/pictures').
-:- use_module('../support/simulation').
 :- use_module('../support/trees').
 :- use_module('../support/old_prolog').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(filesex)).
 
 :- meta_predicate
     on_screen(+, +, 0),

@@ -1,10 +1,6 @@
 % What sensors say of themselves, and the table of what they are.
 
 :- use_module('../support/trees').
-:- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(lists)).
 
 % As a student's own file adds a sensor.
 :- multifile

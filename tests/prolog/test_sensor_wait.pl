@@ -1,8 +1,4 @@
-:- use_module('../support/simulation').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(time)).
 
 :- begin_tests(sensor_wait).
 

@@ -1,10 +1,5 @@
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(lists)).
-:- use_module(library(readutil)).
-:- use_module(library(time)).
 
 % As a student's own file adds a sensor.
 :- multifile ev3dev_sensors:reading/4.
@@ -12,9 +7,7 @@
 ev3dev_sensors:reading(voltage, ['ev3-analog-01'], 'ANALOG', 0).
 ev3dev_sensors:reading(us_dist_inches, ['ev3-analog-01'], 'ANALOG', 0).
 
-                /*******************************
-                *            KINDS             *
-                *******************************/
+% ---------------- KINDS
 
 :- begin_tests(kinds).
 
@@ -48,9 +41,7 @@ test(a_port_is_no_number,
 
 :- end_tests(kinds).
 
-                /*******************************
-                *           READINGS           *
-                *******************************/
+% ---------------- READINGS
 
 :- begin_tests(readings).
 
@@ -213,9 +204,7 @@ test(what_is_not_in_the_table_fails, [forall(tree(Tree)), fail]) :-
 
 :- end_tests(sensor_reading).
 
-                /*******************************
-                *            MODES             *
-                *******************************/
+% ---------------- MODES
 
 % Whether nobody has written the mode of a sensor since. A plain file is marked
 % by a second line, as what is written may be what it held; of the others it is

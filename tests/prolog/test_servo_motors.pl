@@ -1,7 +1,6 @@
 :- use_module('../support/trees').
 :- use_module('../support/child').
 :- use_module('../support/old_prolog').
-:- use_module(library(ev3dev)).
 
 sv1('in1:i2c88:sv1').
 

@@ -1,7 +1,5 @@
 :- use_module('../support/simulation').
 :- use_module('../support/trees', [with_tree/3]).
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/colors)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/events)).
@@ -9,9 +7,6 @@
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/plnxt), [nxt_goal/2, nxt_light/1, nxt_open/0]).
 :- use_module(library(ev3dev/screen)).
-:- use_module(library(random)).
-:- use_module(library(readutil)).
-:- use_module(library(filesex)).
 
 stopped(Goal) :-
     ignore(sim_stop),

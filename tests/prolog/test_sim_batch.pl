@@ -4,16 +4,8 @@
 :- use_module('../support/cases').
 :- use_module('../support/child').
 :- use_module('../support/redis').
-:- use_module('../support/simulation').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/sim_batch)).
-:- use_module(library(apply)).
-:- use_module(library(filesex)).
-:- use_module(library(lists)).
-:- use_module(library(process)).
-:- use_module(library(readutil)).
 
 :- dynamic folder/1.
 

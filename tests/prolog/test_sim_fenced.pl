@@ -1,11 +1,6 @@
-:- use_module(library(plunit)).
 :- use_module('../support/child').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/sim_fenced)).
-:- use_module(library(process)).
-:- use_module(library(random)).
 :- use_module(library(socket), []).
 
 has_unix_sockets :-
@@ -13,9 +8,9 @@ has_unix_sockets :-
 
 %   A file with these lines, for Goal; or with those of a program for the robot.
 with_program(Lines, File, Goal) :-
-    with_file([":- use_module(library(ev3dev))."|Lines], File, Goal).
+    with_lines([":- use_module(library(ev3dev))."|Lines], File, Goal).
 
-with_file(Lines, File, Goal) :-
+with_lines(Lines, File, Goal) :-
     setup_call_cleanup(
         ( tmp_file(fenced, Base),
           atom_concat(Base, '.pl', File),
@@ -26,7 +21,7 @@ with_file(Lines, File, Goal) :-
         catch(delete_file(File), _, true)).
 
 :- meta_predicate
-    with_file(+, ?, 0),
+    with_lines(+, ?, 0),
     with_program(+, ?, 0),
     in_room(0).
 
@@ -220,15 +215,15 @@ test(wrong_option, error(domain_error(sim_fenced_option, seed(1)))) :-
 %   long as the greeting, which comes before.
 speaks(Questions, Ended) :-
     format(string(Asks), "    forall(member(Bytes, ~w),", [Questions]),
-    with_file([":- use_module(library(socket)).",
-               "main :- getenv('EV3DEV_FENCE', Path), unix_domain_socket(Socket),",
-               "    tcp_connect(Socket, Path), tcp_open_socket(Socket, In, Out),",
-               "    forall(member(Stream, [In, Out]), set_stream(Stream, encoding(octet))),",
-               Asks,
-               "           ( forall(member(B, Bytes), put_byte(Out, B)), flush_output(Out),",
-               "             forall(between(1, 16, _), get_byte(In, _)) )),",
-               "    sleep(10)."], File,
-              in_room(sim_fenced(File, Ended))).
+    with_lines([":- use_module(library(socket)).",
+                "main :- getenv('EV3DEV_FENCE', Path), unix_domain_socket(Socket),",
+                "    tcp_connect(Socket, Path), tcp_open_socket(Socket, In, Out),",
+                "    forall(member(Stream, [In, Out]), set_stream(Stream, encoding(octet))),",
+                Asks,
+                "           ( forall(member(B, Bytes), put_byte(Out, B)), flush_output(Out),",
+                "             forall(between(1, 16, _), get_byte(In, _)) )),",
+                "    sleep(10)."], File,
+               in_room(sim_fenced(File, Ended))).
 
 %   Kind, whether it is free, and time in nanoseconds.
 question([Kind, Free, Time], Bytes) :-

@@ -1,7 +1,4 @@
 :- use_module('../support/simulation').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(readutil)).
 
 :- begin_tests(sim_world).
 

@@ -1,10 +1,6 @@
 :- use_module('../support/cases').
-:- use_module('../support/simulation').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/events), [race/2]).
-:- use_module(library(time)).
 
 :- begin_tests(sim_time).
 

@@ -1,12 +1,6 @@
 :- use_module('../support/child').
 :- use_module('../support/dev').
-:- use_module('../support/simulation').
 :- use_module('../support/trees').
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(filesex)).
-:- use_module(library(readutil)).
-:- use_module(library(time)).
 
 %   The commands of Goal to the tone generator.
 told(Tree, Goal, Tones) :-

@@ -1,12 +1,9 @@
 :- use_module('../support/child').
 :- use_module('../support/dev').
-:- use_module('../support/simulation').
 :- use_module('../support/trees').
 :- use_module('../support/undisturbed').
 :- use_module('../support/web').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/bricks)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/view)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/grid)).
@@ -15,9 +12,6 @@
 :- use_module(library(ev3dev/map)).
 :- use_module(library(ev3dev/rules),
               [after/2, after/3, behave/2, op(1150, xfx, ~>), op(1160, xfx, ::)]).
-:- use_module(library(filesex)).
-:- use_module(library(process)).
-:- use_module(library(readutil)).
 
 %   The token of these tests.
 token(test_token).
@@ -348,35 +342,16 @@ test(fault, [forall(fault(Code, Bytes)), true(Answer == close(Code))]) :-
                               page_hear(Page, Answer) ))).
 
 % Lines that there are not.
-no_line("").
-no_line("nothing").
-no_line("stop now").
-no_line("place 1 2").
-no_line("place 1 2 x").
-no_line("place 1 2 0'a").
-no_line("place 1e400 2 3").
-no_line("place 1 2  3").
-no_line("place 1 2 1r3").
-no_line("pace x3").
-no_line("step 0").
-no_line("step -1").
-no_line("step 1000").
-no_line("press escape").
-no_line("unplug outE").
-no_line("plug in1 'halt'").
-no_line("add halt 1 2 3").
-no_line("add box 1 2").
-no_line("move 1.5 2 3").
-no_line("save ../x").
-no_line("jog 101 0").
-no_line("jog 10").
-no_line("reset now").
-no_line("choose room").
-no_line("choose world room").
-no_line("choose lamp pack room").
-no_line("begin room").
-no_line("write ../x floor(red).").
-no_line("worlds 1").
+no_line(Line) :-
+    member(Line,
+           [ "", "nothing", "stop now", "place 1 2", "place 1 2 x",
+             "place 1 2 0'a", "place 1e400 2 3", "place 1 2  3",
+             "place 1 2 1r3", "pace x3", "step 0", "step -1", "step 1000",
+             "press escape", "unplug outE", "plug in1 'halt'",
+             "add halt 1 2 3", "add box 1 2", "move 1.5 2 3", "save ../x",
+             "jog 101 0", "jog 10", "reset now", "choose room",
+             "choose world room", "choose lamp pack room", "begin room",
+             "write ../x floor(red).", "worlds 1" ]).
 
 test(no_line, [forall(no_line(Line)), true(Answer == close(1008))]) :-
     paged(Page, no_messages(page_ask(Page, Line, Answer))).

@@ -6,16 +6,8 @@
 :- use_module('../support/child').
 :- use_module('../support/far_bricks').
 :- use_module('../support/undisturbed').
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/events), [on/2 as when_, race/2]).
-:- use_module(library(ev3dev/sim)).
-:- use_module(library(apply)).
-:- use_module(library(lists)).
-:- use_module(library(process)).
-:- use_module(library(random)).
-:- use_module(library(readutil)).
-:- use_module(library(time)).
 
 :- initialization(load_files(far_grid:example(far_grid), [])).
 

@@ -10,9 +10,6 @@
             heard/2                     % +Tree, -Tones
           ]).
 :- use_module(trees).
-:- use_module(simulation).
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(filesex)).
 :- use_module(library(process)).
 

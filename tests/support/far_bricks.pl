@@ -10,7 +10,6 @@
           ]).
 :- use_module(child).
 :- use_module(trees).
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/bricks)).
 :- use_module(library(filesex)).
 :- use_module(library(lists)).

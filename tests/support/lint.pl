@@ -6,7 +6,6 @@
 :- doc_collect(true).
 
 :- use_module(trees).
-:- use_module(library(ev3dev)).
 :- use_module(papers).
 :- use_module(library(ev3dev/private/help/libraries)).
 :- use_module(library(ev3dev/private/journal/fenced_log)).

@@ -5,9 +5,7 @@
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/events)).
 
-                /*******************************
-                *    A SNAKE BY REMOTE KEYS    *
-                *******************************/
+% ---------------- A SNAKE BY REMOTE KEYS
 
 %   on_channel1_top_left and the like: the red keys drive, the blue ones steer, the
 %   beacon's key strikes. First the events of release, so that one key right after another
@@ -43,9 +41,7 @@ strike :-
     motor_run_timed(outA, 40, 0.2),
     motor_run_timed(outA, -40, 0.2).
 
-                /*******************************
-                *      AFTER THE BEACON        *
-                *******************************/
+% ---------------- AFTER THE BEACON
 
 %   heading_and_distance: turn until the beacon is seen, then go where it is.
 
@@ -63,9 +59,7 @@ chase :-
     wait(0.05),
     fail.
 
-                /*******************************
-                *            A LOG             *
-                *******************************/
+% ---------------- A LOG
 
 %   DataLog('time', 'angle', 'speed'): those of a motor every tenth of a second.
 
@@ -84,9 +78,7 @@ log_to(Log) :-
              format(Log, "~3f,~w,~w~n", [Time, Angle, Speed]) )),
     motor_stop(outA, coast).
 
-                /*******************************
-                *          TWO TASKS           *
-                *******************************/
+% ---------------- TWO TASKS
 
 %   multitask(square(), blink()), or a generator that the main loop asks for its next step.
 
@@ -104,9 +96,7 @@ square_and_blink :-
 square_until_blinked(Winner) :-
     race([square, blink], Winner).
 
-                /*******************************
-                *      A FACE AND A WORD       *
-                *******************************/
+% ---------------- A FACE AND A WORD
 
 %   load_image(ImageFile.AWAKE), play_file(SoundFile.HELLO)
 
@@ -120,9 +110,7 @@ greet(Image, Sound) :-
     screen_show,
     play(Sound).
 
-                /*******************************
-                *         A GEARED ARM         *
-                *******************************/
+% ---------------- A GEARED ARM
 
 %   Motor(Port.A, Direction.COUNTERCLOCKWISE, [12, 36]), run_until_stalled(-60, duty_limit=30),
 %   run_target(60, 90, wait=False) and control.done().

@@ -16,9 +16,7 @@
 :- use_module(cases).
 :- use_module(old_prolog).
 :- use_module(simulation).
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(apply)).
 
 /** <module> Simulated robots that are not quite what the program believes

@@ -4,8 +4,6 @@
             drive_room/4        % +Room, +Options, -Reason, -Outcome
           ]).
 :- use_module(simulation).
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/roadmap)).
 

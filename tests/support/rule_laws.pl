@@ -20,9 +20,7 @@ seconds. What is wrong is what no moment of a look can explain.
 late(0.06).
 exact(0.005).
 
-                 /*******************************
-                 *            SENSORS           *
-                 *******************************/
+% ---------------- SENSORS
 
 %   Spans are span(From, To, State), in which the sensors show the same.
 
@@ -95,9 +93,7 @@ meets(Truths, A, B, Holds) :-
     From < B + Off,
     To > A - Off.
 
-                 /*******************************
-                 *            JOURNAL           *
-                 *******************************/
+% ---------------- JOURNAL
 
 %   entry(Time, Path, Act): Path are the rules that it was done for, each
 %   Name-Guard, the outermost first. Act is mark(Code, Number), run(Ports),
@@ -254,9 +250,7 @@ parts_after(Items, Name, Next, Parts, Within, End0, End, Rest) :-
         Rest = Items
     ).
 
-                 /*******************************
-                 *             LEVELS           *
-                 *******************************/
+% ---------------- LEVELS
 
 %!  broken_law(+Case, +Run, -Wrong) is nondet.
 %
@@ -383,9 +377,7 @@ known_of(Name, context(Known, _, _, _, _, _, _), Index, Of) :-
     Of = known(rule(Name, _, _, _), _, _, _, _),
     !.
 
-                 /*******************************
-                 *        WHEN IT APPLIES       *
-                 *******************************/
+% ---------------- WHEN IT APPLIES
 
 %   Whether a rule applies for sure in all of the time from A to B, or perhaps
 %   in some of it. Its own last call is over then.
@@ -553,9 +545,7 @@ going(call(Name, _, _, _, _, exit, _), Context, Index, Known) :-
     Known = known(rule(_, _, _, Body), _, _, _, _),
     \+ waits(Body).
 
-                 /*******************************
-                 *             LAWS             *
-                 *******************************/
+% ---------------- LAWS
 
 %   Nothing is done for a rule that is not active, and every action ends.
 wrong(Items, _, not_active(Time, Path, Act)) :-

@@ -5,11 +5,9 @@
             behaves/2                   % +Rules, +Options
           ]).
 :- use_module(simulation).
-:- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/journal)).
 :- use_module(library(ev3dev/rules), except([on/2])).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/sim_hand)).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
@@ -34,9 +32,7 @@ begins and when it is over, with its number. So the journal tells all that
 rule_laws.pl has to know.
 */
 
-                 /*******************************
-                 *             CASES            *
-                 *******************************/
+% ---------------- CASES
 
 %!  rule_set(+Seed, -Case)
 
@@ -192,9 +188,7 @@ move(Step) :-
                   [ go_cm(30, 10), go_cm(20, -30), turn(30, 90), wait(0.4),
                     motor_run(outA, 50, 200), motor_run(outD, 30, 720) ]).
 
-                 /*******************************
-                 *             RUNS             *
-                 *******************************/
+% ---------------- RUNS
 
 :- dynamic
     effect_of/3,                        % Time, Port, Value

@@ -7,11 +7,13 @@
           ]).
 :- asserta(user:file_search_path(library, prolog)).
 :- asserta(user:file_search_path(example, examples)).
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
-:- reexport(library(ev3dev/sim), [with_sim/2, with_sim/3, for_seconds/2]).
+:- reexport(library(ev3dev)).
+:- reexport(library(ev3dev/sim)).
 
 /** <module> Runs in the simulator
+
+A test that loads this file, or trees.pl, has library(ev3dev) and
+library(ev3dev/sim), too.
 */
 
 :- meta_predicate

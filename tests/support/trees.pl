@@ -34,12 +34,9 @@
             block/1,                    % +Port
             warnings/2                  % :Goal, -Warnings
           ]).
-:- asserta(user:file_search_path(library, prolog)).
-:- use_module(simulation).
+:- reexport(simulation).
 :- use_module(trees/plain).
 :- use_module(trees/simulated).
-:- use_module(library(ev3dev)).
-:- use_module(library(ev3dev/sim)).
 :- use_module(library(error)).
 :- use_module(library(lists)).
 
@@ -559,9 +556,7 @@ left(Port, Attribute, Output, Text) :-
 left(Port, Attribute, _, Text) :-
     get_attribute(Port, Attribute, Text).
 
-                /*******************************
-                *           THREADS            *
-                *******************************/
+% ---------------- THREADS
 
 %!  later(+Seconds, :Goal)
 %

@@ -19,9 +19,7 @@ wrong_sample(Text, Expected, Found) :-
     sort(Found0, Found),
     Found \== Expected.
 
-                /*******************************
-                *        FUNCTIONS             *
-                *******************************/
+% ---------------- FUNCTIONS
 
 sample("p(X) :- X is inf.", [function-inf/0]).
 sample("p(X) :- X =:= 2*nan+1.", [function-nan/0]).
@@ -38,9 +36,7 @@ sample(":- arithmetic_function(twice/1).
         p(Y) :- Y is twice(3).",
        []).
 
-                /*******************************
-                *           FLAGS              *
-                *******************************/
+% ---------------- FLAGS
 
 sample("p(X) :- current_prolog_flag(max_integer, X).", [flag-max_integer]).
 sample(":- set_prolog_flag(stack_limit, 1000).", [flag-stack_limit]).
@@ -51,9 +47,7 @@ sample(":- create_prolog_flag(ev3dev_new, 1, []), set_prolog_flag(gc, true).
         q(X) :- current_prolog_flag(ev3dev_new, X).",
        []).
 
-                /*******************************
-                *          OPTIONS             *
-                *******************************/
+% ---------------- OPTIONS
 
 sample("p(F, S) :- open(F, write, S, [encoding(utf8), newline(posix)]).",
        [option(open/4)-newline]).
@@ -80,9 +74,7 @@ sample("p(P) :- process_create(path(ls), [], [stdout(null), extra_env([])]),
              close(P, [force(true)]), findall(X, close(X, [now(true)]), _).",
        [option(process_create/3)-extra_env, option(close/2)-now]).
 
-                /*******************************
-                *     PROPERTIES, KEYS         *
-                *******************************/
+% ---------------- PROPERTIES, KEYS
 
 sample("p(H) :- predicate_property(H, defined).",
        [property(predicate_property/2)-defined]).
@@ -125,9 +117,7 @@ sample("p(F, S) :- tmp_file_stream(F, S, [encoding(utf8)]).",
        [key(tmp_file_stream/3)-options]).
 sample("p(F, S) :- tmp_file_stream(utf8, F, S).", []).
 
-                /*******************************
-                *           FORMATS            *
-                *******************************/
+% ---------------- FORMATS
 
 sample("p(X) :- format(\"~a ~`-t~30|~*c ~2f~h~n\", [X]).", [directive-h]).
 sample("p(X) :- format(atom(X), '~:d ~~h', [1]), debug(x, '~z', [X]).",
@@ -142,9 +132,7 @@ sample(":- multifile prolog:message//1, prolog:deprecated/3.
         prolog:deprecated(_, _, _) :- true.",
        [hook-deprecated/3]).
 
-                /*******************************
-                *   PREDICATES AND LIBRARIES   *
-                *******************************/
+% ---------------- PREDICATES AND LIBRARIES
 
 sample("p(X) :- string_predicate(X).", [predicate-string_predicate/1]).
 sample("p(X) :- convlist(q, X, _), member(X, [a]). q(_, _).",
@@ -187,9 +175,7 @@ sample(":- meta_predicate twice(0).
 sample("p --> q, { nb_dict(1) }, call(r), [x], !. q --> \"a\". r(_, _).",
        [predicate-nb_dict/1]).
 
-                /*******************************
-                *           SYNTAX             *
-                *******************************/
+% ---------------- SYNTAX
 
 sample(":- use_module(library(ev3dev/rules)).\na :: true ~> true.", []).
 sample("a :: true ~> true.", [syntax-operator_expected]).
@@ -203,9 +189,7 @@ sample("p(X) :- X = _{a: 1_000}, q(\"a\", `b`, 'c', 0'd, a()).
 sample("p(D) :- X is D.count+1, ( X = [] | X = D.get(x) ).", []).
 sample(":- op(700, xfx, =>). p(X => _) :- X => 3. _ => _.", []).
 
-                /*******************************
-                *           GUARDS             *
-                *******************************/
+% ---------------- GUARDS
 
 sample(":- if((current_prolog_flag(version, V), V >= 70508)).
         p(X) :- X is inf.

@@ -284,9 +284,7 @@ more_arguments(Goal0, N, Goal) :-
     append(Parts0, More, Parts),
     Goal =.. Parts.
 
-                /*******************************
-                *          ARGUMENTS           *
-                *******************************/
+% ---------------- ARGUMENTS
 
 argument_use(Goal, Use) :-
     evaluated(Goal, Expression),

@@ -24,9 +24,7 @@ do(E, H0, H, M) :-
     trans(E, H0, E1, H1, M),
     do(E1, H1, H, M).
 
-                /*******************************
-                *             FINAL            *
-                *******************************/
+% ---------------- FINAL
 
 final([], _, _).
 final([E|Es], H, M) :- final(E, H, M), final(Es, H, M).
@@ -50,9 +48,7 @@ final(atomic(E), H, M) :- final(E, H, M).
 final(begun(E), H, M) :- final(E, H, M).
 final(E, H, M) :- body(E, Body, M), final(Body, H, M).
 
-                /*******************************
-                *             TRANS            *
-                *******************************/
+% ---------------- TRANS
 
 trans(A, H, [], [A|H], M) :-
     \+ A = [_|_],
@@ -158,9 +154,7 @@ for_each([X|Xs], V, E0, [E|Es]) :-
     put_for(V, X, E0, E),
     for_each(Xs, V, E0, Es).
 
-                /*******************************
-                *           CONDITIONS         *
-                *******************************/
+% ---------------- CONDITIONS
 
 holds(and(P, Q), H, M) :- !, holds(P, H, M), holds(Q, H, M).
 holds(or(P, Q), H, M) :- !, ( holds(P, H, M) -> true ; holds(Q, H, M) ).
@@ -223,9 +217,7 @@ causes(A, F, V, P, M) :- M:causes_val(A, F, V, P).
 causes(A, F, true, P, M) :- M:causes_true(A, F, P).
 causes(A, F, false, P, M) :- M:causes_false(A, F, P).
 
-                /*******************************
-                *           VARIABLES          *
-                *******************************/
+% ---------------- VARIABLES
 
 %   put_for(+Variable, +Value, +Term0, -Term): an inner pi/3 of the same name
 %   keeps its own.

@@ -125,9 +125,7 @@ write_line_to(Path, Text) :-
         ),
         close(Stream)).
 
-                /*******************************
-                *           DEVICES            *
-                *******************************/
+% ---------------- DEVICES
 
 class(Type, 'tacho-motor', linear) :-
     linear(Type, _).
