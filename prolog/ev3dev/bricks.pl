@@ -45,7 +45,7 @@
 /** <module> Several bricks
 
 A program starts with one brick, `local`: this machine, or a simulated robot.
-Here it gets others. Each predicate of the pack is about the brick that is in
+This library opens others. Each predicate of the pack is about the brick in
 use, and ports keep their names:
 
 ```
@@ -60,8 +60,8 @@ simulation. A thread begins with the brick of the thread that made it.
 
 %!  brick_open(+Name, +Where) is det.
 %
-%   Name, an atom, is a brick from now on. It gets in use by with_brick/2 or
-%   use_brick/1. Where is
+%   Name, an atom, is a brick from now on. with_brick/2 or use_brick/1 puts it
+%   into use. Where is
 %
 %     - local
 %       The one with which a program starts: another name for it.
@@ -76,9 +76,9 @@ simulation. A thread begins with the brick of the thread that made it.
 %       The same with sim_start(World, Options).
 %     - ssh(Destination)
 %       A brick on the network with this pack, where ssh logs in: Host or
-%       User@Host, as `robot@ev3dev.local`. far/2 sends it goals. Its motors
-%       stop, and its process ends, when this program ends or closes it, or
-%       the connection is silent for a second.
+%       User@Host, such as `robot@ev3dev.local`. far/2 sends it goals. Its
+%       motors stop, and its process ends, when this program ends or closes
+%       it, or the connection is silent for a second.
 %     - command(Program, Arguments)
 %       The same with another program, behind which library(ev3dev/worker)
 %       speaks: as `command(swipl, ['-q', '-g',
@@ -149,9 +149,9 @@ begun(Goal, Brick) :-
 
 %!  brick_close(+Name) is det.
 %
-%   Name is a brick no more. Its motors stop, its simulation ends, and what
-%   was known of it is forgotten. A thread that has it in use gets errors from
-%   now on; this one has `local` in use instead.
+%   Close the brick Name. Its motors stop, its simulation ends, and what was
+%   known of it is forgotten. A thread that has it in use gets errors from now
+%   on; this one has `local` in use instead.
 %
 %   @error existence_error(brick, Name)
 %   @error permission_error(close, brick, local)
@@ -254,8 +254,8 @@ use_brick(Name) :-
 %   of its own: the bricks of the list Names, or all that brick_open/2 has
 %   opened, or `local` if it has opened none. Waits for all. Binds nothing:
 %   each has a copy of Goal. Fails if Goal fails with one of them; then, and
-%   after an error, the others are left, and their moves stop. A far brick
-%   gets Goal by far/2.
+%   after an error, the others are interrupted, and their moves stop. A far
+%   brick gets Goal by far/2.
 %
 %   @error existence_error(brick, Name)
 %   @error type_error(callable, Goal)
@@ -294,8 +294,9 @@ on_brick(Brick, Goal) :-
 %   Call Goal once on the far brick Name, in its module `user`: one message
 %   there, one back. Its solution, failure or error is that of far/2. What it
 %   prints is printed here, after the brick's name. Goals come one after the
-%   other. If this is left before, as by Ctrl-C, the goal there ends, and all
-%   motors of that brick stop; so they do if it hears nothing for a second.
+%   other. If this call is interrupted, for example by Ctrl-C, the goal there
+%   ends, and all motors of that brick stop; so they do if it hears nothing
+%   for a second.
 %
 %   Meanwhile this thread serves its events. Branches of both/2 go on slowly;
 %   bricks_do/2 has a thread for each brick.
@@ -338,8 +339,8 @@ far_of(Name, Far) :-
 %
 %   Send a copy of Term to the brick To, whose program takes it by
 %   robot_receive/3. In a simulation it arrives 10 ms later. Does not wait.
-%   After robots_join/1, To may be a brick of another program. Nobody knows
-%   whether there is one; what no program takes is lost.
+%   After robots_join/1, To may be a brick of another program. Nobody checks
+%   whether there is one; a message that no program takes is lost.
 %
 %   @error existence_error(brick, To)
 %   @error permission_error(use, far_brick, To)
@@ -368,8 +369,8 @@ robot_send(To, Term) :-
 %   other programs that have joined, on this machine and on others, by a Redis
 %   server: redis(Host) or redis(Host:Port). Each brick needs a name of its
 %   own: `brick_open(anna, local)` gives one to this machine. Time is that of
-%   the wall clock. Who can write to that server can send messages. If it goes
-%   away, the program tries to reach it again each second.
+%   the wall clock. Everybody who can write to that server can send messages.
+%   If it goes away, the program tries to reach it again each second.
 %
 %   @error domain_error(redis_address, Address)
 %   @error permission_error(join, redis, HostPort) if it has joined already

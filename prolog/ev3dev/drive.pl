@@ -40,8 +40,8 @@
 
 /** <module> Driving: curves, odometry, going to places
 
-A robot that was described by set_robot/4 knows where it is, and goes where it
-is told. Loaded apart from library(ev3dev):
+A robot that was described by set_robot/4 knows where it is, and drives to
+places. Load this library in addition to library(ev3dev):
 
 ```
 ?- use_module(library(ev3dev/drive)).
@@ -97,8 +97,8 @@ is up, another thread stops a motor or commands something else, or the gyro
 contradicts the wheels (`astray`): it is mounted upside down, left and right
 motor are swapped, or the wheels spin on the spot. The robot stands then.
 
-They can be interrupted, as by Ctrl-C, and stop the robot first. A new move
-takes the place of one that is under way.
+An interrupt, for example Ctrl-C, stops the robot first. A new move replaces
+one that still runs.
 
 @error existence_error(Kind, Port) if a motor or the gyro is unplugged under
        way
@@ -217,7 +217,7 @@ drive_cm(Speed, Rate, Options) :-
 %!  go_to(+X, +Y, +Heading, +Options) is semidet.
 %
 %   Turn towards a place, go there, and turn to a heading if one is given.
-%   With a negative speed, back into it.
+%   With a negative speed it drives there backwards.
 %
 %   @error domain_error(place, Place)
 
@@ -314,12 +314,12 @@ follow(Places0, Options) :-
 
 %!  drive_wait(+Options, -Reason) is semidet.
 %
-%   Wait until the move under way ends, as one that was started with
-%   `wait(false)`, and report why it did, as the option `reason(Reason)` does.
-%   Stops nothing. At once `reached` if there is none. Options:
+%   Wait until a move ends that was started with `wait(false)`, and report why
+%   it did, as the option `reason(Reason)` does. Stops nothing. At once
+%   `reached` if there is none. Options:
 %
 %     - timeout(+Seconds)
-%       Wait for so long at most.
+%       Wait at most for this time.
 
 drive_wait(Options, Reason) :-
     must_be_options(drive_option, [timeout], Options),

@@ -56,7 +56,7 @@
 
 /** <module> Events
 
-What is to happen while a program does something else, in one thread:
+Actions that happen while a program does something else, in one thread:
 
 ```
 ?- on(touch(_, 1), say(ouch)),
@@ -72,8 +72,8 @@ still there. A thread that only computes serves none.
 There are no other threads. So nothing happens at the same time, and a run on
 the virtual clock is the same each time.
 
-Conditions are looked at each time, so they should be quick, and must not
-wait. One that reads a sensor in another mode than the last one takes 10 ms.
+Conditions are checked each time, so they should be quick, and must not wait.
+One that reads a sensor in another mode than the last one takes 10 ms.
 */
 
 %   event_(Brick, Id, Kind, Action): Kind is on(Condition, Options),
@@ -102,11 +102,11 @@ look_every(0.02).
 %   wait. Condition is a goal, or compares sensors as for sensor_wait/1:
 %   `us_dist_cm(in1) < 20`. Its bindings reach Action, as in
 %   `on(( light(L), L < 20 ), format("~w~n", [L]))`. Action may move the robot
-%   and wait; it interrupts the program for so long, and its event happens
-%   only once at a time. Those that happen at one look do so in the order in
-%   which they were added. If Action fails or throws, a message is printed and
-%   the event stays; if Condition throws, a message is printed and the event
-%   ends. Options:
+%   and wait; meanwhile the program is interrupted, and the event does not
+%   happen again. Events of one moment happen in the order in which they were
+%   added. If Action fails or throws, a message is printed and the event
+%   stays; if Condition throws, a message is printed and the event ends.
+%   Options:
 %
 %     - id(+Id)
 %       A name for event_cancel/1. An event with the same Id is replaced.
@@ -115,13 +115,13 @@ look_every(0.02).
 %     - stable(+Seconds)
 %       Condition must have been true for that long. Default is 0.
 %     - rearm(:Condition)
-%       When it may happen again. Default: when Condition is false. So a
-%       threshold can have two sides:
+%       When the event may happen again. Default: when Condition is false. So
+%       a threshold can have a second value:
 %       `on(( light(L), L < 20 ), stop, [rearm(( light(M), M > 30 ))])`.
 %     - armed(+Boolean)
-%       If `false`, it has to be rearmed first: a Condition that is true from
-%       the start has not become true. So a key that nobody pressed is not
-%       released: `on(\+ touch(_, 1), stop, [armed(false)])`. Default is
+%       If `false`, the event must be rearmed first: a Condition that is true
+%       from the start has not become true. So a key that nobody pressed is
+%       not released: `on(\+ touch(_, 1), stop, [armed(false)])`. Default is
 %       `true`.
 %
 %   @error permission_error(wait, guard, Id) if Condition waits or
@@ -295,7 +295,7 @@ serve_at_prompt :-
     ;   true
     ).
 
-%   There is nobody whom it could reach.
+%   No program could catch it.
 left_at_prompt(E) :-
     (   ( E == '$aborted' ; E == unwind(abort) )
     ->  true
@@ -374,7 +374,7 @@ is_stable(armed(Count), Stable, Id, Now, Count) :-
         fail
     ).
 
-%   A time that was missed meanwhile is not made up for.
+%   A missed time is not made up for.
 happened(Id) :-
     brick(Brick),
     (   event_(Brick, Id, Kind, _),
@@ -425,7 +425,7 @@ act(Id, Kind, Action) :-
     ;   throw(E)
     ).
 
-%   What a library looks at all the time would fill the log of the page.
+%   Events of the libraries themselves would fill the log of the page.
 of_library(Module:_) :-
     sub_atom(Module, 0, _, _, ev3dev_).
 
@@ -457,11 +457,12 @@ prolog:message(ev3dev(event_failed(Id, Name))) -->
 %!  until(:Condition, :Goal) is semidet.
 %!  until(:Condition, :Goal, -Which) is semidet.
 %
-%   Call Goal, and leave it as soon as Condition is true: a move is stopped,
-%   and so are motors that Goal has started. If Goal has started something
-%   that goes on by itself, as go/1, it is waited until Condition is true.
-%   Which is `condition`, or `goal` if Goal succeeded before. Fails if Goal
-%   fails. If Condition is true at once, Goal is not called.
+%   Call Goal, and interrupt it as soon as Condition is true: a move is
+%   stopped, and so are motors that Goal has started. If Goal has started
+%   something that goes on by itself, such as go/1, until/2 waits until
+%   Condition is true. Which is `condition`, or `goal` if Goal succeeded
+%   before. Fails if Goal fails. If Condition is true at once, Goal is not
+%   called.
 %
 %   ```
 %   ?- until(touch(_, 1), go(30)).
@@ -469,7 +470,7 @@ prolog:message(ev3dev(event_failed(Id, Name))) -->
 %   ?- until(( us_dist_cm(_, D), D < 20 ), forever_zigzag).
 %   ```
 %
-%   Condition is looked at every 20 ms while Goal waits or reads sensors.
+%   Condition is checked every 20 ms while Goal waits or reads sensors.
 %
 %   @error permission_error(wait, guard, until) if Condition waits or
 %          starts a motor
@@ -536,11 +537,11 @@ to_the_end(Goal) :-
 %
 %   Call goals at the same time, in this thread: each goes on when another one
 %   waits. both/2 succeeds when both have succeeded; if one fails, the other
-%   is left, and both/2 fails. race/2 succeeds when the first of a list of
-%   Goals succeeds, and leaves the others: their moves stop, and so do the
-%   motors that they have started. Winner is the number of the first, from 1
-%   on; if several succeed at the same time, the earliest in the list. race/2
-%   fails if all goals fail.
+%   is interrupted, and both/2 fails. race/2 succeeds when the first of a list
+%   of Goals succeeds, and interrupts the others: their moves stop, and so do
+%   the motors that they have started. Winner is the number of the first, from
+%   1 on; if several succeed at the same time, the earliest in the list.
+%   race/2 fails if all goals fail.
 %
 %   ```
 %   ?- both(go_cm(30, 100), tones([tone(440, 500), tone(880, 500)])).
@@ -552,7 +553,7 @@ to_the_end(Goal) :-
 %   end with it.
 %
 %   @error existence_error(feature, engines) in SWI-Prolog before 7.3.26
-%   @error what one of the goals throws; the others are left
+%   @error what one of the goals throws; the others are interrupted
 
 both(Goal1, Goal2) :-
     must_be_goal(Goal1),

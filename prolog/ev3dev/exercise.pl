@@ -75,12 +75,12 @@ machine has to do.
       - goal(Goal)
         What is called after the program was loaded. Default is `start`.
       - seconds(Seconds)
-        How much of the robot's time a run has. Default is 60.
+        How long a run is, in the robot's time. Default is 60.
       - seeds(Seeds)
         A list of integers, or `From-To`: the runs that are marked. Default is
         1-10.
       - open(Seeds)
-        With which students try. Default is the first three.
+        The runs that students can try. Default is the first three.
       - robot(Robot), noise(Boolean)
         As for sim_start/2.
       - cpu(Seconds)
@@ -102,18 +102,17 @@ machine has to do.
     The same for a Share of them, which is taken as 0 if it is less, and as 1
     if it is more.
   - happens(Seed)
-    A goal at the beginning of each run, which may plan what is to happen in
-    it by sim_at/2, sim_press/2 or sim_unplug/1.
+    A goal at the beginning of each run, which may plan events by sim_at/2,
+    sim_press/2 or sim_unplug/1.
   - forbid(Name/Arity)
-    A program that mentions such a predicate has no points. It is looked for
-    in the text, so this is a help and no fence.
+    A program that mentions such a predicate has no points. It is searched in
+    the text, so it is a help, not a fence.
 
-A program gets for each score the mean of its runs. A run earns nothing in
-which the robot was not used, and none that had to be ended by a limit on
-processor time, memory, sleep or output. If that happened with the first two
-seeds, the others are not run.
+For each score a program gets the mean of its runs. A run earns nothing if the
+robot was not used, or if a limit on processor time, memory, sleep or output
+ended it. If that happens with the first two seeds, the others are not run.
 
-What else the machine has to do changes no mark: only what the program itself
+Other programs on the machine change no mark: only what the program itself
 does counts for its limits, and its random numbers follow the seed of the run.
 The text of the exercise goes into them, too, so a comment in the copy that
 marks is enough, and nobody can find the seed from these numbers.
@@ -191,9 +190,9 @@ exercise_try(Exercise, File, Options) :-
 %!  exercise_check(+Exercise) is semidet.
 %!  exercise_check(+Exercise, +Options) is semidet.
 %
-%   For who writes an exercise: run its solution on all seeds, and print how
-%   its points spread. Fails if the solution does not earn all of them.
-%   Options are `seeds`, `jobs` and `enclosed` of exercise_mark/4.
+%   For authors of exercises: run the solution on all seeds, and print how its
+%   points vary. Fails if the solution does not earn all of them. Options are
+%   `seeds`, `jobs` and `enclosed` of exercise_mark/4.
 %
 %   @error as exercise_mark/4
 
@@ -210,14 +209,14 @@ exercise_check(Exercise, Options) :-
 
 %!  run_seed(-Seed) is semidet.
 %
-%   With which seed it was.
+%   The random seed of the run.
 
 run_seed(Seed) :-
     run_fact(seed(Seed)).
 
 %!  run_world(-Facts) is semidet.
 %
-%   The facts of its world.
+%   The facts of the world of the run.
 
 run_world(Facts) :-
     run_fact(world(Facts)).
@@ -240,7 +239,7 @@ ended(How) :-
 
 %!  duration(-Seconds) is semidet.
 %
-%   When the run ended, by the robot's time.
+%   The time of the run, on the robot's clock.
 
 duration(Seconds) :-
     run_fact(seconds(Seconds)).
@@ -257,7 +256,7 @@ ended_near(Place0, Distance) :-
 
 %!  path_length(-Length) is semidet.
 %
-%   How long the robot's way was, in cm.
+%   The length of the robot's path, in cm.
 
 path_length(Length) :-
     findall(X-Y, run_pose(_, X, Y, _), Places),

@@ -39,11 +39,11 @@ because/2; the libraries do so, too.
 ```
 ?- because(motor_run(outB, -30), too_near(18)).
 ?- why(outB).
-outB runs at -30 % since 2.31 s: too_near(18)
+outB runs at -30 %, since 2.31 s: too_near(18)
 ```
 
-A move of the robot is one command. How it is kept on its course is not
-recorded. A new tree, as of sim_start/1, has an empty journal.
+A move of the robot is one command; how the drive keeps it on its course is
+not recorded. A new tree, such as that of sim_start/1, has an empty journal.
 */
 
 %!  because(:Goal, +Cause) is semidet.
@@ -140,7 +140,7 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %     - `stop`
 %       The last stop of a motor, or end of a course.
 %     - `sound`
-%       What the brick was to play or to say.
+%       A command to play or to say something.
 %
 %   Time is that of ev3_time/1. Causes are those of because/2, the innermost
 %   first, and at last called(Name/Arity), the predicate that wrote the
@@ -396,10 +396,10 @@ all_readable([Term0|Terms0], [Term|Terms]) :-
 %!  journal_replay(+File) is semidet.
 %
 %   Give the commands in a File of journal/1 again, at their times from the
-%   first one on, on whatever robot or simulation is in use. Waits. It is the
-%   same run only as far as the robot begins in the same place and meets the
-%   same things: no sensor is asked. The robot rests at the end, also after an
-%   exception. Fails if a device is missing; then nothing has moved.
+%   first one on, on whatever robot or simulation is in use. Waits. A replay
+%   reads no sensor, so it is the same run only if the robot begins in the
+%   same place and meets the same things. The robot rests at the end, also
+%   after an exception. Fails if a device is missing; then nothing has moved.
 %
 %   @error existence_error(source_sink, File)
 %   @error domain_error(journal_fact, Fact), with file and line

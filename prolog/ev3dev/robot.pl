@@ -30,8 +30,8 @@
 
 /** <module> A robot with two wheels
 
-A robot that is steered by the speeds of its two wheels, such as the vehicles
-of most building instructions. It is described once:
+A robot that steers by the speeds of its two wheels, like the vehicles of most
+building instructions. A program describes it once:
 
 ```
 ?- set_robot(5.6, 10.6, outB, outC).
@@ -52,9 +52,9 @@ done at once.
 go/2, go_cm/2 and turn/2 wait. A native loop keeps the robot on its course
 meanwhile, by the rotation sensors of its wheels and by a gyro, if one is
 connected; library(ev3dev/drive) has more moves of that kind, with options.
-They start and stop gently, and hold the robot where it is at the end. They
-can be interrupted, as by Ctrl-C, and stop the robot first. They fail, and the
-robot stands, if they end early:
+They start and stop gently, and hold the robot where it is at the end. An
+interrupt, for example Ctrl-C, stops the robot first. They fail, and the robot
+stands, if they end early:
 
   - A wheel is blocked. That prints a warning.
   - The gyro contradicts the wheels: it is mounted upside down, left and right
@@ -175,9 +175,9 @@ directed(-1, Number, Opposite) :-
 %!  stop is semidet.
 %
 %   Stop both motors of the robot, with `brake`. If no robot is set, stop all
-%   motors, as stop_all_motors/0. Does not wait until they stand. May be
-%   called from another thread while the robot moves. If one is not connected,
-%   stops the other one and fails.
+%   motors, as stop_all_motors/0 does. Does not wait until they stand still.
+%   May be called from another thread while the robot moves. If one is not
+%   connected, stops the other one and fails.
 
 stop :-
     robot(_, _, Left, Right),

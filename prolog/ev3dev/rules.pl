@@ -56,12 +56,13 @@ while(hungry), cooldown(2) :: light(L), L > 60 ~> S is L/2, go(S)`.
 
   1. At each tick, every 20 ms, the rules are tried in order. The first one
      whose guard holds is active; the first solution of the guard reaches the
-     action. While an action has not returned, only an earlier rule suppresses
-     it, and its own guard is not looked at.
-  2. A suppressed action is left by an exception, at its next wait or read of
-     a sensor. Its move stops, and its own clean-up runs. If the action
-     catches everything, the exception comes again at its next wait. (A loop
-     around `catch(_, _, true)` cannot be left.)
+     action. While an action has not returned, only an earlier rule overrules
+     it, and its own guard is not checked.
+  2. The action of a rule that is overruled is interrupted, by an exception,
+     at its next wait or read of a sensor. Its move stops, and its own
+     clean-up runs. If the action catches everything, the exception comes
+     again at its next wait. (A loop around `catch(_, _, true)` cannot be
+     left.)
   3. An action is called once when its rule becomes active. If it has returned
      without having waited, as `go(S)`, it is called again when the variables
      that it shares with the guard have other values: `go(S)` follows `S`.
@@ -78,14 +79,14 @@ while(hungry), cooldown(2) :: light(L), L > 60 ~> S is L/2, go(S)`.
 Options of a rule:
 
   - while(:Condition)
-    The action is left when Condition is no longer true. Its variables are its
-    own, not those of the guard. An action that has returned goes on while it
-    is true, also when the guard is not.
+    The action is interrupted when Condition is no longer true. Its variables
+    are its own, not those of the guard. An action that has returned goes on
+    while it is true, also when the guard is not.
   - min_time(+Seconds)
-    An action that has returned goes on for at least so long.
+    An action that has returned goes on for at least this time.
   - cooldown(+Seconds)
-    The rule does not apply for so long after it was active. If its action has
-    waited and ended, its guard must have been false, too.
+    The rule does not apply for this time after it was active. If its action
+    has waited and ended, its guard must have been false, too.
 
 An action may be a list: `[A:1.5, B:2, C]` is A for 1.5 s, then B for 2 s,
 then C until another rule is active.
@@ -120,7 +121,7 @@ wrong_arrow(Rule) :-
     format(atom(Text), 'rule ~p: write ~~> instead of ->', [Name]),
     throw_error(existence_error(rule, Rule), _, Text).
 
-%   A multifile predicate, so that rules may stand in several files.
+%   A multifile predicate, so that rules may be in several files.
 rule_clauses(Head, Guard0, Action,
              [ (:- multifile '$ev3dev rule'/4),
                (:- discontiguous '$ev3dev rule'/4),
@@ -701,7 +702,7 @@ is_late(End) :-
     now_(Now),
     Now >= End.
 
-%   While an action waits: is it time to leave it?
+% While an action waits: is it time to interrupt it?
 tick(Behavior, Listener) :-
     arg(1, Behavior, Id),
     look_again(Behavior),
@@ -734,8 +735,8 @@ next(Behavior, Next) :-
 
 %!  become(+Rules).
 %
-%   Replace the rules of the innermost behave/1 under way, and leave the
-%   action that calls this. Does not return.
+%   Replace the rules of the innermost behave/1 that runs, and end the action
+%   that calls this. Does not return.
 %
 %   @error permission_error(become, behavior, none) outside of an action
 
@@ -749,7 +750,7 @@ become(Rules0) :-
 %!  state(?State) is semidet.
 %!  set_state(+State) is det.
 %
-%   The state of the innermost behave/1 under way: any term, `start` at the
+%   The state of the innermost behave/1 that runs: any term, `start` at the
 %   beginning. Guards read it, actions set it.
 %
 %   @error permission_error(read, behavior, none) outside of behave/1
@@ -776,9 +777,9 @@ behavior(Behavior, Action) :-
 %!  send_message(+Message) is det.
 %!  received(?Message) is nondet.
 %
-%   Send a Message to the innermost behave/1 under way, and, in a guard, ask
-%   whether it was sent. A message is there for one tick: the rules see it
-%   when they are tried next.
+%   Send a Message to the innermost behave/1 that runs, and, in a guard, ask
+%   whether it was sent. A message exists for one tick: the rules see it when
+%   they are tried next.
 %
 %   @error permission_error(send, behavior, none) outside of behave/1
 

@@ -88,8 +88,8 @@ It may contain any number of
     A lamp, 30 cm above the floor. An output port in the mode `dc-motor` or
     `led` switches a lamp with a Port, see port_mode/2. Intensity is the
     percentage that col_ambient/2 shows when the sensor looks at the lamp from
-    100 cm. The light falls with the square of the distance; obstacles throw
-    shadows.
+    100 cm. The light decreases with the square of the distance; obstacles
+    cast shadows.
   - beacon(X, Y, Channel)
     An infrared beacon on a channel from 1 to 4, see ir_beacon/4. A sensor
     sees it from up to 200 cm, if nothing stands between.
@@ -205,13 +205,13 @@ that polls a sensor in a loop. sleep/1 lets no simulated time pass;
 wait/1 does. While a program waits for a button that no sim_press/2 will
 press, time passes at most 20 times as fast as real time.
 
-Of several threads one runs at a time, in the order of simulated time. The
-others wait at their next call. The turn passes on when a thread waits, ends,
-or sleeps elsewhere: in thread_join/2, for a message, at the terminal. While a
-thread computes, time stands, so a thread must not loop until another one
-changes a fact: it should wait by wait/1, or for a message. The same
-program with the same seed does the same each time, unless it sleeps by real
-time (sleep/1, timeouts) or waits for a person.
+If there are several threads, one runs at a time, in the order of simulated
+time. The others wait at their next call. The turn passes on when a thread
+waits, ends, or sleeps elsewhere: in thread_join/2, for a message, at the
+terminal. While a thread computes, time stands, so a thread must not loop
+until another one changes a fact: it should wait by wait/1, or for a message.
+The same program with the same seed does the same each time, unless it sleeps
+by real time (sleep/1, timeouts) or waits for a person.
 */
 
 %!  sim_start(+World) is det.
@@ -237,11 +237,12 @@ time (sleep/1, timeouts) or waits for a person.
 %       an error of half a degree, unless the robot has facts about its own.
 %       Default is `false`.
 %     - seed(+Integer)
-%       The seed of the random numbers: of noise, and of what this thread
-%       draws by random/1, random_between/3 and so on, also in race/2, until
-%       the simulation ends. Then it goes on with the numbers of before.
-%       Default is 1; but without the option only the virtual clock seeds the
-%       numbers of the thread. Another thread calls set_random/1 itself.
+%       The random seed of the noise, and of the numbers that this thread
+%       draws with random/1, random_between/3 and so on, also in race/2, until
+%       the simulation ends. Then the thread goes on with its numbers of
+%       before. Default is 1; but without the option only the virtual clock
+%       seeds the numbers of the thread. Other threads call set_random/1
+%       themselves.
 %     - screen(+Bits)
 %       The bits per pixel of the screen: 32 (default) or 1, as with older
 %       versions of ev3dev.
@@ -404,7 +405,8 @@ throw_fault(Kind, Source, _, _, Why) :-
 %   End the simulation. Fails if none runs. The tree that ev3_sysfs/1 or the
 %   environment had set before is in use again. If none was set, the next use
 %   of a device chooses one, as the first use of the program does: on a
-%   machine that is no EV3 it starts a new simulation of the world `room`.
+%   computer that is not an EV3 it starts a new simulation of the world
+%   `room`.
 
 sim_stop :-
     clock_changes(( sim_stop_, forget_plans )),
@@ -414,15 +416,15 @@ sim_stop :-
 %!  with_sim(+World, :Goal) is semidet.
 %!  with_sim(+World, :Goal, +Options) is semidet.
 %
-%   Call Goal once in a simulation of its own, which ends with it, however it
-%   ends. So a test starts from the same state each time. A simulation that
-%   runs already is as before after Goal; on the virtual clock its time stands
-%   still meanwhile. What the program knows of its robot it does not know in
-%   Goal: set_robot/4 and drive_option/2, the grid with its obstacles, the
-%   events of this thread, what was drawn on the screen, the white of
-%   col_white/1, exogenous actions that wait. After Goal it knows that again,
-%   and nothing of what Goal did. Only rules and other clauses of the program
-%   are the same in Goal.
+%   Call Goal once in its own simulation, which ends with it. So a test starts
+%   from the same state each time. A simulation that runs already is the same
+%   after Goal; on the virtual clock its time stands still meanwhile. Goal
+%   begins without what the program knows of its robot: set_robot/4 and
+%   drive_option/2, the grid with its obstacles, the events of this thread,
+%   the drawing on the screen, the white of col_white/1, exogenous actions
+%   that wait. After Goal the program knows all this again, and nothing of
+%   what Goal did. Only rules and other clauses of the program are the same in
+%   Goal.
 %
 %   ```
 %   :- use_module(library(ev3dev)).

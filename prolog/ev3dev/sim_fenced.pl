@@ -31,9 +31,9 @@
 
 The running simulation shows its robot to a program in another process: the
 files of motors, sensors, buttons and screen, and nothing else. There are no
-sim_pose/3, no world and no seed. The clock is virtual all the same, and the
-program's random numbers follow the seed of the simulation, so each run is the
-same, whatever else the machine has to do.
+sim_pose/3, no world and no seed. The clock is virtual, and the program's
+random numbers follow the seed of the simulation, so each run is the same,
+also on a busy machine.
 
 ```
 ?- sim_start(maze, [clock(virtual), seed(7)]),

@@ -38,11 +38,11 @@ toplevel:
 % The robot is at http://localhost:8033/?t=6f0c...
 ```
 
-The page shows the world from above with the robot as it is and as it believes
-to be, what its sensors see, motors and sensors, the brick, charts and a log.
-It stops the robot and its program (the key Escape does, too). In the
-simulator it also moves the robot and things, and lets time pass more slowly,
-or stand.
+The page shows the world from above with the robot where it is and where it
+believes to be, what its sensors see, motors and sensors, the brick, charts
+and a log. It stops the robot and its program (the key Escape does, too). In
+the simulator it also moves the robot and things, and lets time pass more
+slowly, or stand.
 
 The page changes nothing by being open: no simulated time passes, no sensor's
 mode changes, and a program does the same as without it.
