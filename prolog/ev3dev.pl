@@ -18,9 +18,9 @@ A program loads this module. It offers all predicates of
   - library(ev3dev/driver), library(ev3dev/device_table) and
     library(ev3dev/files): devices and the files that ev3dev shows of them
 
-On a machine that is no EV3, the first use of a device starts a simulated one,
-unless ev3_sysfs/1 or the environment variable EV3DEV_SYSFS names a directory.
-A program loads library(ev3dev/sim) to control the simulator.
+On a machine that is not an EV3, the first use of a device starts a simulated
+one, unless ev3_sysfs/1 or the environment variable EV3DEV_SYSFS names a
+directory. A program loads library(ev3dev/sim) to control the simulator.
 
 Names and argument order are those of the paper "ev3dev-prolog - Prolog API
 for LEGO EV3" (Schwarz, Wenzel 2019).

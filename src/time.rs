@@ -37,7 +37,7 @@ natives! {
     }
 
     /// tick_after_(+Seconds): this thread serves its events after some time, or, if that
-    /// is `infinite`, has none. This is no use of a device: it chooses no tree.
+    /// is `infinite`, has none. This is not a use of a device: it chooses no tree.
     semidet fn "tick_after_"(context, seconds) {
         let call = Call::of(context, "every", 2);
         waiting::tick_at(match call.seconds(seconds)? {

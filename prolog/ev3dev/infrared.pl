@@ -59,7 +59,7 @@ buttons(11, [blue_up, blue_down]).
 %!  ir_beacon(?Port, ?Channel, -Heading, -Percent) is nondet.
 %
 %   True if the sensor sees the beacon of a remote control on Channel. Heading
-%   is from -25, far to the left, to 25, far to the right; it is no angle.
+%   is from -25, far to the left, to 25, far to the right; it is not an angle.
 %   Percent is from 0, near, to 100, about 2 m. Fails if the sensor sees no
 %   beacon. An unbound Channel enumerates the channels with a beacon.
 %

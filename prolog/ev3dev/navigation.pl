@@ -288,7 +288,7 @@ steer(Left, Turn, drive(_, _, _, _, _, _, Speed, _)) :-
 %!  tick(+Gone, +Before, +Still0, -Still, -Why) is det.
 %
 %   Let a moment pass. Why is `timeout` if the move goes on, else why it
-%   ended: `stalled` also where there is no getting on for three seconds.
+%   ended: `stalled` also if there is no getting on for three seconds.
 
 tick(Gone, Before, Still0, Still, Why) :-
     drive_wait([timeout(0.03)], Why0),

@@ -74,7 +74,7 @@ mode `auto` again, it looks for known sensors:
 %   that does not answer is tried for 2 s.
 %
 %   @error domain_error(i2c_register, Register)
-%   @error domain_error(i2c_count, Count) if it is no number from 1 to 32, or
+%   @error domain_error(i2c_count, Count) if it is not from 1 to 32, or
 %          leads beyond the last register
 %   @error domain_error(i2c_sensor, Port) if the sensor is not on the I2C bus
 %   @error existence_error(sensor, Port) if the sensor does not answer
@@ -98,7 +98,7 @@ i2c_read(Port, Register, Count, Bytes) :-
 %   @error domain_error(i2c_register, Register)
 %   @error domain_error(i2c_count, Bytes) if there are not 1 to 32 of them, or
 %          if they lead beyond the last register
-%   @error domain_error(byte, Byte) if one of Bytes is no byte
+%   @error domain_error(byte, Byte) if one of Bytes is not a byte
 %   @error domain_error(i2c_sensor, Port) if the sensor is not on the I2C bus
 %   @error existence_error(sensor, Port) if the sensor does not answer
 %   @error system_error(_) for other errors of the bus

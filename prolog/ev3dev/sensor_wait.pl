@@ -102,7 +102,7 @@ must_not_be_goal(Options) :-
     ;   true
     ).
 
-%   What compares a sensor and is no comparison/3, or only reads it, is a
+%   What compares a sensor and is not a comparison/3, or only reads it, is a
 %   mistake, not a goal.
 
 is_goal((_, _), _).

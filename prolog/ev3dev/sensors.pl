@@ -197,7 +197,7 @@ goal_expansion(sensor_reading(Reading, Port, Value), Goal) :-
            ).
 
 %   A sensor has another value, which is no news; or the program compares it
-%   with what is no number.
+%   with what is not a number.
 
 other_value(Reading, Value) :-
     \+ number(Value),

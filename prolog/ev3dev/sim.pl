@@ -364,7 +364,7 @@ must_be_clock(Clock) :-
     ;   domain_error(clock, Clock)
     ).
 
-%   Where there are no threads, a page lets time pass, and has its own pace.
+%   If there are no threads, a page lets time pass, and has its own pace.
 clock_here(Clock0, Clock) :-
     (   current_prolog_flag(threads, false)
     ->  Clock = virtual

@@ -93,7 +93,7 @@ processor as with many.
 %   @error type_error(integer, Seed)
 %   @error domain_error(sim_batch_option, Option)
 %   @error the errors of sim_start/2 for its options
-%   @error existence_error(library, unix) where there is no fork/1
+%   @error existence_error(library, unix) if there is no fork/1
 %   @error existence_error(redis_server, Address)
 %   @error existence_error(library, redis) in a Prolog without it
 %   @error io_error(Operation, Stream) if that server goes away

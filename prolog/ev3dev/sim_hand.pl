@@ -68,7 +68,7 @@ sim_place(X0, Y0, Heading0) :-
 %          if the robot stands there
 %   @error domain_error(world_item, Fact) if Fact is another fact of worlds or
 %          robots
-%   @error domain_error(world_or_robot_fact, Fact) if Fact is no fact of
+%   @error domain_error(world_or_robot_fact, Fact) if Fact is not a fact of
 %          worlds or robots
 
 sim_add(Fact) :-

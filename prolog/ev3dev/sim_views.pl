@@ -104,7 +104,7 @@ written(Text, Stream) :-
 %   ```
 %
 %   They are regular files that answer poll(2) and the ioctls that ask about
-%   an event device. Because they are no devices, a program cannot map the
+%   an event device. Because they are not devices, a program cannot map the
 %   screen into memory, and a program that looks for device nodes finds none.
 %
 %   @error existence_error(directory, Directory); the message says so if a

@@ -316,7 +316,7 @@ impl<'a, C: Prolog> Call<'a, C> {
         self.context.term_list_iter(term).map(of).collect()
     }
 
-    /// Raises an error for what is no list: a partial list, one that has no end.
+    /// Raises an error for what is not a list: a partial list, one that has no end.
     fn must_be_list(&self, term: &Term) -> PrologResult<()> {
         let end = self.context.new_term_ref();
         list_end!(term, &end);

@@ -51,7 +51,7 @@ pub(crate) fn register() {
     });
 }
 
-/// The text of an atom; `None` if the term is no atom.
+/// The text of an atom; `None` if the term is not an atom.
 pub(crate) fn atom_text(term: &Term) -> PrologResult<Option<Cow<'static, str>>> {
     match atom_in!(term).and_then(word) {
         Some(word) => Ok(Some(Cow::Borrowed(word))),

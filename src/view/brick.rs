@@ -125,7 +125,7 @@ fn brick(devices: &Registry) -> Brick {
     }
 }
 
-/// The screen; `None` where there is none.
+/// The screen; `None` if there is none.
 fn screen(devices: &Registry) -> OrNull<Screen> {
     let shades = screen::seen(devices.tree(), &*dev()).ok().flatten();
     OrNull(shades.map(Screen::of_shades))

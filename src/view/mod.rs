@@ -55,7 +55,7 @@ natives! {
         into_prolog_result(true)
     }
 
-    /// view_thread_(+Serves): this thread serves a page from now on, and is no part of the
+    /// view_thread_(+Serves): this thread serves a page from now on, and is not a part of the
     /// program; or it ends.
     semidet fn "view_thread_"(_context, serves) {
         threads::serve(serves.get_ex()?);

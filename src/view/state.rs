@@ -9,7 +9,7 @@ use std::time::Duration;
 pub(super) trait Report {
     fn report(&self, json: &mut Json);
 
-    /// Then it is no member of an object.
+    /// Then it is not a member of an object.
     fn is_absent(&self) -> bool {
         false
     }
@@ -22,7 +22,7 @@ pub(super) fn text(value: &dyn Report) -> String {
     json.into_text()
 }
 
-/// A number with at most `PLACES` decimals; what is no number is `null`.
+/// A number with at most `PLACES` decimals; what is not a number is `null`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Decimal<const PLACES: u32>(pub(super) f64);
 

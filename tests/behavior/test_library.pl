@@ -53,7 +53,7 @@ test(each_library_loads_alone,
        true(Status-Output == exit(0)-"") ]) :-
     format(string(Program), ":- use_module(library(ev3dev/~w)).", [Layer]),
     run_program(Program, [], Status, Output).
-% The simulator is no directory.
+% The simulator is not a directory.
 test(takes_the_tree_from_the_environment,
      [ forall(of_files(Tree)), true(Status-Output == exit(0)-"[outA,outB,outC,outD]") ]) :-
     with_tree(Tree, ( tree_root(Root),

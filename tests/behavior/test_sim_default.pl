@@ -1,4 +1,4 @@
-% Where there is no brick: the simulator comes by itself, at the first use.
+% If there is no brick: the simulator comes by itself, at the first use.
 
 :- use_module('../support/child').
 

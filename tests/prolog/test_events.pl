@@ -497,7 +497,7 @@ asks(Toplevel) :-
 test(nothing_happens_on_a_virtual_clock, true(Served == [])) :-
     at_prompt(pipe, sim_start(room, [clock(virtual)]),
               quiet("tell_often, pass_time(0.2).\n", "tell(true).\n", Served)).
-% The events that are gone leave a tick, which is no use of a device.
+% The events that are gone leave a tick, which is not a use of a device.
 test(no_simulation_starts_after_sim_stop, true(Ended-Output == exit(0)-"rests\n")) :-
     run_program(":- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/events)).

@@ -106,7 +106,7 @@ test(another_thread_stops_it, [forall(between(1, 8, At)), true(Reason == stopped
                           navigate_to([], 260-210, [reason(Reason)]) ),
                         retractall(driving)),
                     stands([outB, outC]) )).
-% Slowly and where there is nothing.
+% Slowly and if there is nothing.
 test(through_fuse, [forall(tree(mount))]) :-
     on_slow_mount([start(0, 0, 0)], arrives(10, 20)).
 

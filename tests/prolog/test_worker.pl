@@ -209,7 +209,7 @@ test(the_grid_of_the_paper_with_the_map_on_this_side) :-
 
 :- end_tests(worker_ends).
 
-% Through a server of OpenSSH, where there is one.
+% Through a server of OpenSSH, if there is one.
 :- begin_tests(worker_ssh, [condition(can_log_in)]).
 
 test(a_goal_and_its_output, X-Lines == 3-["eva: hi", "3"]) :-

@@ -80,7 +80,7 @@ some_construct(Name) :-
     Program \= [_|_],
     \+ sub_atom(Name, 0, _, _, $).
 
-%   The table also names what is no construct: procedures, the robot.
+%   The table also names what is not a construct: procedures, the robot.
 
 listed_construct(Name) :-
     quoted('docs/cognitive-robotics.md', construct, Text),

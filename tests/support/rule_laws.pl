@@ -203,8 +203,8 @@ inner_entry(entry(Time, Path0, Act), entry(Time, Path, Act)) :-
     ).
 
 %   The parts of a list are one call. Then Part is a list of From-To; it is []
-%   if the action is no list. If the last part was left when its time was over,
-%   End is `either`: left or exit.
+%   if the action is not a list. If the last part was left when its time was
+%   over, End is `either`: left or exit.
 
 merged([], _, []).
 merged([Item|Items0], Rules, [Merged|Items]) :-

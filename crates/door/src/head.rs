@@ -24,7 +24,7 @@ impl<'a> Head<'a> {
         Some(Self { method, path, query, fields })
     }
 
-    /// The values of a field; one that is no text is empty.
+    /// The values of a field; one that is not a text is empty.
     pub(crate) fn values(&self, name: &str) -> impl Iterator<Item = &'a str> {
         let is_meant = move |field: &&Header| field.name.eq_ignore_ascii_case(name);
         self.fields.iter().filter(is_meant).map(|field| str::from_utf8(field.value).unwrap_or(""))

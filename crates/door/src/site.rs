@@ -150,7 +150,7 @@ fn answer(status: &str, host: &str, kind: &str, more: &str, body: &[u8]) -> Vec<
     [head.as_bytes(), body].concat()
 }
 
-/// The answer to the key of a handshake (RFC 6455, 4.2.2); `None` if that is no handshake.
+/// The answer to the key of a handshake (RFC 6455, 4.2.2); `None` if that is not a handshake.
 fn accept_key(head: &Head) -> Option<String> {
     let is_one = head.value("upgrade")?.eq_ignore_ascii_case("websocket")
         && head.value("sec-websocket-version")? == "13";

@@ -25,7 +25,7 @@ pub trait Devfs: Send + Sync {
     /// Opens a device below the root. Never blocks.
     ///
     /// # Errors
-    /// The kernel's, as ENOENT where there is no such device.
+    /// The kernel's, as ENOENT if there is no such device.
     fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Stream>>;
 
     /// The time since some fixed moment.

@@ -22,7 +22,7 @@ pub enum Access {
 
 /// An operation that could not be carried out.
 ///
-/// A missing device is no error: the result is `None`.
+/// A missing device is not an error: the result is `None`.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {

@@ -34,7 +34,7 @@ pub trait Sysfs: Send + Sync {
     /// The entries of a directory, in any order.
     ///
     /// # Errors
-    /// The kernel's, as ENOENT where there is no such directory.
+    /// The kernel's, as ENOENT if there is no such directory.
     fn list(&self, directory: &Path) -> io::Result<Vec<Entry>>;
 
     /// Opens an attribute for one kind of access. Never blocks.
@@ -102,7 +102,7 @@ pub trait Sysfs: Send + Sync {
         spawned.map(drop)
     }
 
-    /// The same, where there are no threads: only a simulated tree can do so.
+    /// The same, if there are no threads: only a simulated tree can do so.
     ///
     /// # Errors
     /// ENOSYS
@@ -161,12 +161,12 @@ pub trait AttributeFile: Send + Sync {
     /// The driver's, as EINVAL for a value it does not accept.
     fn write(&self, text: &[u8]) -> io::Result<()>;
 
-    /// Reads a file that is no text, from an offset on.
+    /// Reads a file that is not a text, from an offset on.
     fn read_at(&self, _buffer: &mut [u8], _offset: u8) -> io::Result<usize> {
         Err(Errno::OPNOTSUPP.into())
     }
 
-    /// Writes a file that is no text, from an offset on.
+    /// Writes a file that is not a text, from an offset on.
     fn write_at(&self, _bytes: &[u8], _offset: u8) -> io::Result<()> {
         Err(Errno::OPNOTSUPP.into())
     }

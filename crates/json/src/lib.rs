@@ -74,7 +74,7 @@ impl Json {
         self
     }
 
-    /// A number with at most `places` decimals; what is no number, or too large, is `null`.
+    /// A number with at most `places` decimals; what is not a number, or too large, is `null`.
     pub fn number(&mut self, value: f64, places: u32) {
         let scale = 10_i64.pow(places.min(6));
         #[expect(clippy::cast_precision_loss, reason = "a small power of ten")]

@@ -8,7 +8,7 @@
 //! robot looks around, then searches the whole map once, and from there follows the poses that
 //! are possible as a particle filter.
 //!
-//! A [`Mapper`] makes a first map, where there is none yet.
+//! A [`Mapper`] makes a first map, if there is none yet.
 //!
 //! Sources: Thrun, Burgard, Fox: Probabilistic Robotics (2005), chapters 4, 6, 8; for the number
 //! of particles Fox: Adapting the sample size in particle filters through KLD-sampling (2003).

@@ -19,7 +19,7 @@ pub const FARTHEST: f64 = 1e6;
 /// What is wrong with a larger one.
 pub const OUT_OF_RANGE: &str = "has a number beyond 1000000";
 
-/// False for what is too large, and what is no number.
+/// False for what is too large, and what is not a number.
 pub fn is_in_range(number: f64) -> bool {
     number.abs() <= FARTHEST
 }

@@ -92,7 +92,7 @@ impl Mailbox {
     /// An empty one, whose size nobody can change.
     ///
     /// # Errors
-    /// The system's, as where there are no files in memory.
+    /// The system's, for example if there are no files in memory.
     pub fn new() -> io::Result<Mailbox> {
         let file = memfd_create("ev3dev-mailbox", MemfdFlags::CLOEXEC | MemfdFlags::ALLOW_SEALING)?;
         ftruncate(&file, BYTES as u64)?;

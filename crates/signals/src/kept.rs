@@ -24,7 +24,7 @@ impl Kept {
     /// already.
     ///
     /// # Errors
-    /// The kernel's, where there is no descriptor left.
+    /// The kernel's, if there is no descriptor left.
     pub fn new(descriptor: c_int, path: &Path, word: &str) -> io::Result<Option<Self>> {
         let path = std::path::absolute(path)?;
         let path = path.as_os_str().as_bytes();

@@ -34,7 +34,7 @@
 //! bytes for the watchdog) know nobody; `crash`, `handlers`, `survivor`; then `kept` (a motor of
 //! the driver) and `watchdog`, which hears and looks.
 //!
-//! Where there are no signals there is the latch alone.
+//! If there are no signals there is the latch alone.
 #![cfg_attr(unix, expect(unsafe_code, reason = "handlers of signals, and processes, are C's"))]
 #[cfg(unix)]
 mod crash;

@@ -56,11 +56,11 @@ static LENGTH: AtomicUsize = AtomicUsize::new(0);
 static ADDING: Mutex<()> = Mutex::new(());
 
 impl Slot {
-    /// The slot of an open file, with this line after its first byte; `None` where there is no
+    /// The slot of an open file, with this line after its first byte; `None` if there is no
     /// room.
     ///
     /// # Errors
-    /// The kernel's, where there is no descriptor left.
+    /// The kernel's, if there is no descriptor left.
     pub(crate) fn of(descriptor: c_int, rest: &[u8]) -> io::Result<Option<&'static Self>> {
         let line = [&[RESTS], rest].concat();
         let _adding = ADDING.lock().unwrap_or_else(PoisonError::into_inner);
@@ -126,7 +126,7 @@ impl Slot {
     }
 }
 
-/// Makes a place for a line of that length; its start, or `None` where there is no room.
+/// Makes a place for a line of that length; its start, or `None` if there is no room.
 fn append(line: usize) -> Option<usize> {
     let start = LENGTH.load(Ordering::Relaxed);
     let end = start + line + 1;
@@ -146,7 +146,7 @@ fn lengthen(length: usize) -> Option<()> {
     (file == NONE || unsafe { libc::ftruncate(file, length) } == 0).then_some(())
 }
 
-/// A new file in memory, or [`NONE`] where there are none, as before Linux 3.17.
+/// A new file in memory, or [`NONE`] if there are none, as before Linux 3.17.
 fn file_in_memory() -> io::Result<c_int> {
     // Safety: asks the kernel only, not by a function of the C library, which the brick's lacks.
     let file = unsafe {

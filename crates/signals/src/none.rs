@@ -1,4 +1,4 @@
-//! Where there are no signals and no processes: a page ends a program by ending its worker, and no
+//! Without signals and processes: a page ends a program by ending its worker, and no
 //! motor outlives that.
 use crate::latch::{self, Reason};
 use std::io;

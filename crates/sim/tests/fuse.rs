@@ -1,6 +1,6 @@
 //! The mounted tree through the kernel: real files, real descriptors, a clock in real time.
 //!
-//! `cargo test -p ev3-sim --features fuse --test fuse`. Where there is no FUSE, these tests say
+//! `cargo test -p ev3-sim --features fuse --test fuse`. If there is no FUSE, these tests say
 //! so and check nothing.
 
 #[path = "it/robots.rs"]

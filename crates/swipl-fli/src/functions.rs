@@ -406,7 +406,7 @@ pub fn has_other_threads() -> bool {
     /// How many numbers above the highest are asked for: a thread that has one, and is not a
     /// thread of Prolog yet, hides those behind it. That which collects garbage begins so.
     const AHEAD: i32 = 8;
-    // Safety: the frame gives back the references. Where there is no thread, `id` stays unbound.
+    // Safety: the frame gives back the references. If there is no thread, `id` stays unbound.
     unsafe {
         if PL_thread_self() != 1 {
             return true;

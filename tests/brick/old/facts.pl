@@ -64,8 +64,8 @@ old_takes(Where) :-
 
 %!  newer_term(+Where, +Term, -What) is semidet.
 %
-%   True if Term is no option, property or key of Where. What is its name; or
-%   Term, if only the value is newer.
+%   True if Term is not an option, property or key of Where. What is its name;
+%   or Term, if only the value is newer.
 
 newer_term(Where, Term, What) :-
     indicator(Term, Name/_),

@@ -66,7 +66,7 @@ plain_plug(Port, Type, Directory) :-
     ;   write_text(Directory, driver_name, Type),
         ( Port = port(Short) -> true ; Short = Port ),
         format(atom(Address), "ev3-ports:~w", [Short]),
-        % Last: until it has an address it is no device.
+        % Last: until it has an address it is not a device.
         write_text(Directory, address, Address)
     ).
 

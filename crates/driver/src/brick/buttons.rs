@@ -105,7 +105,7 @@ pub struct Event {
     pub is_press: bool,
 }
 
-/// The buttons that are down now; `None` where there are no buttons.
+/// The buttons that are down now; `None` if there are no buttons.
 ///
 /// # Errors
 /// The kernel's, as EACCES for a user who is not in the group `input`.
@@ -154,7 +154,7 @@ pub struct Events {
 }
 
 impl Events {
-    /// Those from now on; `None` where there are no buttons.
+    /// Those from now on; `None` if there are no buttons.
     pub fn from_now(dev: Arc<dyn Devfs>) -> Result<Option<Self>> {
         let Some((stream, path)) = open_first(&*dev, &DEVICES, Access::Read)? else {
             return Ok(None);

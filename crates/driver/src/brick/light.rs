@@ -223,7 +223,7 @@ impl Light {
     }
 }
 
-/// Makes a light show a color, and removes its trigger. `None` where there is no
+/// Makes a light show a color, and removes its trigger. `None` if there is no
 /// such light, `false` if it cannot show that.
 ///
 /// # Errors
@@ -273,7 +273,7 @@ pub fn set_trigger(
 }
 
 /// Makes a light blink, in the color it shows: `on` and `off` are in
-/// milliseconds. `None` where there is no such light.
+/// milliseconds. `None` if there is no such light.
 pub fn blink(
     registry: &Registry,
     name: &str,

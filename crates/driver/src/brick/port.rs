@@ -69,7 +69,7 @@ fn device_at(registry: &Registry, port: &str) -> Result<Option<Arc<Device>>> {
 
 /// Puts a port into a mode, if it is in another, and waits until the device that
 /// the mode makes is there and can be written. The mode `auto` makes none, but
-/// looks for one: what is detected is waited for. `None` where there is no such
+/// looks for one: what is detected is waited for. `None` if there is no such
 /// port, `false` if that device does not appear.
 ///
 /// # Errors
@@ -121,7 +121,7 @@ fn detects(registry: &Registry, port: &str, interrupted: Interrupted) -> Result<
 }
 
 /// Sets the device of a port, if another one is there, and waits
-/// until that one is there and can be written. `None` where there is no such
+/// until that one is there and can be written. `None` if there is no such
 /// port, `false` if the device does not appear.
 ///
 /// # Errors

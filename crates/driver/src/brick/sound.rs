@@ -62,7 +62,7 @@ pub struct Sound {
 
 impl Sound {
     /// Plays tones one after the other, and waits until they are over; `None`
-    /// where there is no speaker. The speaker is silent afterwards, also when the wait
+    /// if there is no speaker. The speaker is silent afterwards, also when the wait
     /// is left.
     ///
     /// # Errors
@@ -83,7 +83,7 @@ impl Sound {
     }
 
     /// Starts to play tones one after the other, in the place of all other sounds;
-    /// `None` where there is no speaker.
+    /// `None` if there is no speaker.
     pub fn begin_tones(
         &'static self,
         tree: &dyn Sysfs,
@@ -265,7 +265,7 @@ fn playing(path: &Path) -> Result<[Started; 1]> {
     Ok([Program::APLAY.start(&arguments, Stdio::null(), Stdio::null())?])
 }
 
-/// The volume in percent; `None` where there is no mixer for it.
+/// The volume in percent; `None` if there is no mixer for it.
 ///
 /// # Errors
 /// [`Error::NoProgram`] without amixer.
@@ -276,7 +276,7 @@ pub fn volume(dev: &dyn Devfs) -> Result<Option<u8>> {
     Ok(controls()?.first().map(|(_, percent)| *percent))
 }
 
-/// Sets the volume in percent; `None` where there is no mixer for it.
+/// Sets the volume in percent; `None` if there is no mixer for it.
 ///
 /// # Errors
 /// [`Error::NoProgram`] without amixer, [`Error::Program`].

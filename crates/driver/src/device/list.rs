@@ -28,7 +28,7 @@ impl<T> List<T> {
         None
     }
 
-    /// The first element for which `is` holds; where there is none, the one
+    /// The first element for which `is` holds; if there is none, the one
     /// that `make` makes, at the end. Of several threads that come for the
     /// same element at once, one makes it.
     pub(crate) fn find_or_push(&self, is: impl Fn(&T) -> bool, make: impl Fn() -> T) -> &T {

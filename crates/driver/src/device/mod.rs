@@ -349,7 +349,7 @@ impl Device {
         self.attribute(attribute).is_plain(self.tree())
     }
 
-    /// The bytes of an attribute that is no text; how many there are.
+    /// The bytes of an attribute that is not a text; how many there are.
     ///
     /// # Errors
     /// [`Error::Malformed`] where they fill the buffer, else the kernel's.
@@ -357,7 +357,7 @@ impl Device {
         Ok(self.attribute(attribute).read(self.tree(), buffer)?.len())
     }
 
-    /// Fills a buffer with what an attribute that is no text has from an offset on.
+    /// Fills a buffer with what an attribute that is not a text has from an offset on.
     ///
     /// # Errors
     /// [`Error::Malformed`] where it is shorter, else the kernel's.
@@ -365,7 +365,7 @@ impl Device {
         self.attribute(attribute).read_at(self.tree(), buffer, offset)
     }
 
-    /// Writes an attribute that is no text, from an offset on.
+    /// Writes an attribute that is not a text, from an offset on.
     pub(crate) fn write_at(&self, attribute: &str, bytes: &[u8], offset: u8) -> Result<()> {
         self.attribute(attribute).write_at(self.tree(), bytes, offset)
     }
@@ -515,7 +515,7 @@ fn named(
 /// Reads the `address` and `driver_name` of the device at a path.
 ///
 /// # Errors
-/// The kernel's; [`Error::Malformed`] where there is no address.
+/// The kernel's; [`Error::Malformed`] if there is no address.
 pub fn identity(tree: &dyn Sysfs, path: &Path) -> Result<(String, String)> {
     let (_, address) = address_of(tree, path)?;
     Ok((address, read_file(tree, &path.join("driver_name"))?))

@@ -31,7 +31,7 @@ const FOLLOWS: f64 = 0.25;
 /// restarted with another zero, or its 16 bits overflowed.
 const FASTEST: f64 = 600.0;
 
-/// How far it turns at most in a period, in degrees. Less is no leap, however much time
+/// How far it turns at most in a period, in degrees. Less is not a leap, however much time
 /// has passed, and need not be compared with that.
 const SHORT_LEAP: f64 = FASTEST * PERIOD.as_secs_f64();
 

@@ -30,7 +30,7 @@ pub(super) const LONGEST_LOOK: Duration = Duration::from_millis(100);
 /// Less movement than this, in counts, is standing still.
 const STUCK_WITHIN: u64 = 2;
 
-/// Less than this, in counts per second, is no speed.
+/// Less than this, in counts per second, is not a speed.
 const SLOWEST: f64 = 0.05;
 
 /// Speed of the wheels on their last counts, per second.

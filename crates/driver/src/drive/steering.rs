@@ -69,7 +69,7 @@ const GOAL_ALIGNED: f64 = 1.5;
 
 impl Leg {
     /// How far a wheel rolls at most, in cm, from a pose that is not far away;
-    /// infinite if that is no number.
+    /// infinite if that is not a number.
     pub fn wheels_roll(&self, wheels: &Wheels, from: Pose) -> f64 {
         let turn = |degrees: f64| degrees.to_radians().abs() * wheels.axle() / 2.0;
         let way = |place| distance(from.point(), place);

@@ -1,4 +1,4 @@
-//! Trees of real files, and of none where there is no operating system.
+//! Trees of real files, and of none if there is no operating system.
 #[cfg(unix)]
 mod devfs;
 #[cfg(not(unix))]

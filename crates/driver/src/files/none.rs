@@ -1,4 +1,4 @@
-//! Where there are no files: trees without devices.
+//! Without an operating system: trees without devices.
 use crate::devfs::{Devfs, Stream};
 use crate::error::{Access, Result};
 use crate::sysfs::{AttributeFile, Entry, Sysfs};

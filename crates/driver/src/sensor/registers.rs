@@ -15,7 +15,7 @@ use crate::sensor::{is_on_bus, while_it_connects};
 /// The file of the registers.
 const REGISTERS: &str = "direct";
 
-/// Reads as many registers as the buffer holds, at most 32. `None` where there is no sensor.
+/// Reads as many registers as the buffer holds, at most 32. `None` if there is no sensor.
 ///
 /// # Errors
 /// [`Error::NotOnBus`]; the bus's, after two seconds of trying where it is ENXIO, EBUSY or
@@ -38,7 +38,7 @@ pub fn read(
 }
 
 /// Writes registers, at most 32, once: a sensor may act on what is written to it. `None`
-/// where there is no sensor.
+/// if there is no sensor.
 ///
 /// # Errors
 /// [`Error::NotOnBus`]; the bus's; [`Error::Interrupted`].

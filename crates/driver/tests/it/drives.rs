@@ -269,7 +269,7 @@ fn so_are_those_that_a_program_commands_again_and_again() {
         let ended = robot.drive.until_last_ended(Some(ms(50))).block(never);
         ended.map(|ended| (begun.unwrap().is_some(), ended))
     };
-    // To push one way and then the other is no stall.
+    // To push one way and then the other is not a stall.
     for speed in [15.0, -15.0, 15.0, -15.0] {
         let started = robot.brick.now();
         while robot.brick.since(started) < ms(1200) {

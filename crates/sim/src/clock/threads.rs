@@ -40,7 +40,7 @@ pub(super) fn me() -> Id {
 /// Threads that are no part of the program.
 static OUTSIDE: Mutex<Vec<Id>> = Mutex::new(Vec::new());
 
-/// A thread that is no part of the program, until it ends.
+/// A thread that is not a part of the program, until it ends.
 struct Outsider(Id);
 
 impl Drop for Outsider {

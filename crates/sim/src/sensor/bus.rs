@@ -74,7 +74,7 @@ impl Sensor {
 
     /// The mode of a sensor on the I2C bus: a message where it has a register for that, and a
     /// reading, for which the write waits if there will be no other. Where nobody answers the
-    /// message there is no reading, and polling has ended; a reading that fails is no error.
+    /// message there is no reading, and polling has ended; a reading that fails is not an error.
     pub(super) fn select_on_bus(&mut self, mode: usize) -> Result<Effect, Errno> {
         let message = self.message_ms();
         let mut blocks = 0;

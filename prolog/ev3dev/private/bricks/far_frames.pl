@@ -65,7 +65,7 @@ send_frame(Stream, Kind, Number, Term) :-
 %   Until Stream ends, or is silent for longer than its timeout: call(Closure,
 %   Kind, Number, Term) for each frame. Term is `unreadable` if it has
 %   something in it that cannot be sent, as a stream. Kind is `output`, and
-%   Term a string, for what is no frame.
+%   Term a string, for what is not a frame.
 
 receive_frames(Stream, Closure) :-
     repeat,

@@ -130,7 +130,7 @@ taken([Option|Options], Names, Taken, Rest) :-
 %!  option(?Option, +Options, +Default) is semidet.
 %
 %   True if Option, a term as Name(Value), is the first of its name in
-%   Options; where there is none, Value is Default. Options are such as
+%   Options; if there is none, Value is Default. Options are such as
 %   must_be_options/3 accepts. (Not by library(option): with all that it loads
 %   it takes a brick longer than the pack.)
 
@@ -230,7 +230,7 @@ number_option(Option, Domain, Options, Default) :-
 %!  limit_option(?Option, +Options, +Default) is det.
 %
 %   True if Option, Name(Seconds), is in Options with an expression of that
-%   value, or `infinite`; where there is none, Seconds is Default, or
+%   value, or `infinite`; if there is none, Seconds is Default, or
 %   `infinite`.
 
 limit_option(Option, Options) :-

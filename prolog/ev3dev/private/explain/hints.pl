@@ -88,8 +88,8 @@ fail_because(Cause0) :-
 %!  advise(+Cause) is det.
 %
 %   Explain what a call that succeeds, or fails for another reason, may have
-%   been meant for. It is printed as by fail_because/1, but is no error. Cause
-%   is one of those, or one of
+%   been meant for. It is printed as by fail_because/1, but is not an error.
+%   Cause is one of those, or one of
 %
 %     - not_cm(Wheel, Axle)
 %       The lengths of a robot are such as nobody has in cm.
@@ -366,7 +366,7 @@ because(no_reading(Reading), existence_error(reading, Reading), Text) :-
 because(no_simulation, existence_error(simulation, any),
         'no simulation runs: see sim_start/1').
 
-%   What the program may mean by a Value that is no number.
+%   What the program may mean by a Value that is not a number.
 
 instead(Reading, Value, Instead) :-
     (   memberchk(Reading, [col_color, ht_color]),

@@ -35,7 +35,7 @@ effect(Entry, S0, Context, Effect) :-
 %!  internal_effect(+Entry, +Situation0, +Context, +Module,
 %!                  -Effect) is nondet.
 %
-%   As effect/4, for what is no action of the domain.
+%   As effect/4, for what is not an action of the domain.
 
 is_internal(e(_, _)).
 is_internal(set(_)).
@@ -137,7 +137,7 @@ open_effect(F, V, Condition, S0, Context, M, Effect) :-
     ).
 
 %   The condition itself enumerates the fluents that are set, if it negates
-%   nothing and is no comparison that needs their arguments.
+%   nothing and is not a comparison that needs their arguments.
 
 is_positive(Condition) :-
     nonvar(Condition),

@@ -8,8 +8,9 @@
 
 %!  hint(+Term, +Module, -Text) is det.
 %
-%   Term is no construct, and stands for nothing in the domain of Module. Text
-%   is what may follow in the message: how this library writes it, or empty.
+%   Term is not a construct, and stands for nothing in the domain of Module.
+%   Text is what may follow in the message: how this library writes it, or
+%   empty.
 
 hint(Term, Module, Text) :-
     (   compound(Term),

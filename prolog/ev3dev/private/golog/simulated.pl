@@ -38,9 +38,9 @@ simulates :-
 %!  tried_in_simulator(+Entry, +Situation0, +Situation1, -Situation,
 %!                     +Context) is nondet.
 %
-%   Entry leads from Situation0 to Situation1. True if it is no action of the
-%   robot, or succeeds in the simulation; Situation has what it sensed there.
-%   On backtracking the simulation goes back.
+%   Entry leads from Situation0 to Situation1. True if it is not an action of
+%   the robot, or succeeds in the simulation; Situation has what it sensed
+%   there. On backtracking the simulation goes back.
 
 tried_in_simulator(A, _, S1, S, X) :-
     context_module(X, M),

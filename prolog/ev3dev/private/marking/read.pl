@@ -196,7 +196,8 @@ mentions(Term, Name, Arity) :-
 
 %!  program_terms(+Text, -Terms) is det.
 %
-%   The terms of a program, as term(Term, Line). What is no term is left out.
+%   The terms of a program, as term(Term, Line). What is not a term is left
+%   out.
 
 program_terms(Text, Terms) :-
     setup_call_cleanup(

@@ -234,7 +234,7 @@ yield_if_possible :-
 
 %!  page_turn is det.
 %
-%   Lets the page go on that Prolog runs in; where there is one, it adds the
+%   Lets the page go on that Prolog runs in; if there is one, it adds the
 %   clause.
 
 :- multifile

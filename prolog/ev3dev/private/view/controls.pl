@@ -30,7 +30,7 @@ most_snapshots(16).
 %!  hand_line(+Word, +Rest, -Answer) is semidet.
 %
 %   Do what a line of the page says. Answer is done(More), refused(Why), or
-%   `none`. Fails if that is no line.
+%   `none`. Fails if that is not a line.
 
 hand_line(Word, Rest, Answer) :-
     arguments(Rest, Arguments),

@@ -23,8 +23,8 @@ it prints and its answers. There is nothing for it to read.
 %!  goal_line(+Word, +Rest, +Page, -Refused) is semidet.
 %
 %   Start a goal, ask for its next answer, or end it. A new goal ends one that
-%   waits to be asked. Fails if that is no line; Refused is bound to a text if
-%   it is not the time for it.
+%   waits to be asked. Fails if that is not a line; Refused is bound to a text
+%   if it is not the time for it.
 
 goal_line(goal, Rest, Page, Refused) :-
     sub_string(Rest, Before, 1, After, " "),

@@ -141,7 +141,7 @@ heard(Line, Page, Wanted0, Last) :-
 %!  page_says(+Page, +Line) is semidet.
 %
 %   Do what a page says that is served without a thread of its own: it gets
-%   each frame at once. Fails if that is no line.
+%   each frame at once. Fails if that is not a line.
 
 page_says(Page, Line) :-
     word_rest(Line, Word, Rest),

@@ -372,7 +372,7 @@ is_stopping :-
 
 %!  view_thread is det.
 %
-%   This thread serves the view from now on, and is no part of the program.
+%   This thread serves the view from now on, and is not a part of the program.
 
 view_thread :-
     view_thread_(true),

@@ -39,7 +39,7 @@ longest(200000).
 %!  source_line(+Word, +Rest, +Page, -Answer) is semidet.
 %
 %   A page wants to read the program, one of its files, or no more. Answer is
-%   done(More) or refused(Why). Fails if that is no line.
+%   done(More) or refused(Why). Fails if that is not a line.
 
 source_line(program, Rest, Page, Answer) :-
     (   Rest == "off"

@@ -50,7 +50,7 @@ brick_show(Text) :-
     view_show_(Brick),
     keep_bricks.
 
-%   Nothing to choose from is no list. Of those that are no robot yet, only
+%   Nothing to choose from is not a list. Of those that are no robot yet, only
 %   the one that is shown is in it.
 keep_bricks :-
     brick(Shown),

@@ -52,7 +52,8 @@ worlds_settings(Address) :-
 %!  world_line(+Word, +Rest, -Answer) is semidet.
 %
 %   Do what a line of the page says. Answer is done(More), refused(Why) or
-%   refused(Why, More), More being pairs Name=Value. Fails if that is no line.
+%   refused(Why, More), More being pairs Name=Value. Fails if that is not a
+%   line.
 
 world_line(Word, Rest, Answer) :-
     request(Word, Rest, Request),

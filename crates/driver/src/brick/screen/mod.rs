@@ -16,7 +16,7 @@ use crate::error::{Access, Error, Result};
 use crate::sysfs::Sysfs;
 use std::path::{Path, PathBuf};
 
-/// Copies a frame to the screen; `None` where there is no screen of the EV3's.
+/// Copies a frame to the screen; `None` if there is no screen of the EV3's.
 ///
 /// # Errors
 /// The kernel's, as EACCES for a user who is not in the group `video`.
@@ -42,7 +42,7 @@ pub fn show(tree: &dyn Sysfs, dev: &dyn Devfs, frame: &Frame) -> Result<Option<(
 }
 
 /// The picture on the screen, whichever program drew it: shades line by line, 0
-/// is black. `None` where there is no screen of the EV3's.
+/// is black. `None` if there is no screen of the EV3's.
 ///
 /// # Errors
 /// The kernel's; [`Error::Malformed`] where it is cut short.
