@@ -22,7 +22,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PAPERS = ["ARCHITECTURE.md", "CONTRIBUTING.md", *sorted(
-    str(path.relative_to(ROOT)) for pattern in ("docs/decisions/*.md", "prolog/ev3dev/private/*/README.md")
+    str(path.relative_to(ROOT)) for pattern in ("docs/decisions/*.md", "prolog/ev3dev/private/*/README.md", "crates/*/README.md")
     for path in ROOT.glob(pattern))]
 CODE = re.compile(r"\.(?:pl|rs|js|mjs|py|sh|toml|c|h|css|html|txt)$|(?:^|/)Makefile$")
 PATH = re.compile(r"[\w.@*-]+(?:/[\w.@*-]+)*/?")
@@ -163,6 +163,8 @@ def compared(files, papers):
     rooms = {path.split("/")[3] for path in files if re.match(r"prolog/ev3dev/private/[^/]+/", path)}
     yield "README.md of each room", "folders of private", {path.split("/")[3] for path in papers if re.fullmatch(
         r"prolog/ev3dev/private/[^/]+/README\.md", path)}, rooms
+    yield "README.md of each crate", "crates", {path.split("/")[1] for path in papers if re.fullmatch(
+        r"crates/[^/]+/README\.md", path)}, {path.split("/")[1] for path in files if re.match(r"crates/[^/]+/", path)}
     yield "ARCHITECTURE.md", "folders of private", None, (
         rooms, set(re.findall(r"`private/(\w+)/`", papers["ARCHITECTURE.md"])))
     state = files["src/view/state.rs"]
