@@ -4,11 +4,8 @@ use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_type};
 use crate::glue::places::places;
 use crate::glue::terms::Ask as _;
-use ev3_sim::facts::{Fact, Subject};
-use ev3_sim::{
-    Bounds, Drawing, Drawn, Echo, Hull, Item, MotorMount, Noise, Part, Pose, SensorMount,
-    SpecError, Wheel, check_bounds,
-};
+use ev3_sim::facts::{Fact, Form, Kind, Subject, Value};
+use ev3_sim::{Drawing, Echo, Hull, Part, Pose, SpecError, check_bounds};
 use std::str::FromStr;
 use swipl::prelude::*;
 
@@ -22,10 +19,16 @@ pub(crate) fn fact<'a, C: QueryableContextType>(
     let Some((name, arguments)) = call.compound(term)? else {
         return Ok(None);
     };
-    if !subject.has(&name, arguments.len()) {
+    let Some(form) = subject.form(&name, arguments.len()) else {
         return Ok(None);
-    }
-    let Some(fact) = read(call, &name, &arguments)? else {
+    };
+    let kinds = arguments.iter().zip(form.arguments);
+    let values = kinds.map(|(argument, (_, kind))| value(call, *kind, argument));
+    let values = values.collect::<PrologResult<Vec<_>>>()?;
+    let read = Fact::of(&name, &values).or_else(|error| {
+        wrong_because(call, "possible_geometry", &arguments[0], &error.to_string())
+    })?;
+    let Some(fact) = read else {
         return Ok(None);
     };
     must_be_ground(call, term)?;
@@ -35,6 +38,31 @@ pub(crate) fn fact<'a, C: QueryableContextType>(
         _ => {}
     }
     Ok(Some(fact))
+}
+
+/// `Kind(Form)`, where Form has `count` arguments, each `Name:Kind`.
+#[cfg(feature = "sim")]
+pub(crate) fn form_term<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    kind: &str,
+    form: &Form,
+    count: usize,
+) -> PrologResult<Term<'a>> {
+    let compound = |name: &str, arguments: &[Term<'a>]| {
+        let term = call.context.new_term_ref();
+        term.unify(Functor::new(name, u16::try_from(arguments.len()).unwrap_or(u16::MAX)))?;
+        for (place, argument) in (1..).zip(arguments) {
+            term.unify_arg(place, argument)?;
+        }
+        Ok(term)
+    };
+    let argument = |(name, kind): &(&str, Kind)| {
+        let (of, context) = (format!("{kind:?}").to_lowercase(), call.context);
+        compound(":", &[term! {context: #atomable(*name)}?, term! {context: #atomable(of)}?])
+    };
+    let arguments = form.arguments[..count].iter().map(argument);
+    let fact = compound(form.name, &arguments.collect::<PrologResult<Vec<_>>>()?)?;
+    compound(kind, &[fact])
 }
 
 /// Raises that there is no such fact, and says which there are.
@@ -68,129 +96,43 @@ fn impossible<C: QueryableContextType>(
     checked.or_else(|error| wrong_because(call, "possible_geometry", term, &error.reason))
 }
 
-/// The fact with this name. `None` if its arguments do not fit.
-fn read<'a, C: QueryableContextType>(
+/// An argument of a fact.
+fn value<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
-    name: &str,
-    arguments: &[Term<'a>],
-) -> PrologResult<Option<Fact>> {
-    let number = |term: &Term| call.float(term);
-    let fact = match (name, arguments) {
-        ("bounds", [x1, y1, x2, y2]) => Fact::Bounds(Bounds {
-            low: [number(x1)?, number(y1)?],
-            high: [number(x2)?, number(y2)?],
-        }),
-        ("wall", [x1, y1, x2, y2]) => {
-            Fact::Item(Item::wall([number(x1)?, number(y1)?], [number(x2)?, number(y2)?]))
-        }
-        ("wall", [x1, y1, x2, y2, thickness]) => Fact::Item(Item::Wall {
-            from: [number(x1)?, number(y1)?],
-            to: [number(x2)?, number(y2)?],
-            thickness: number(thickness)?,
-        }),
-        ("box", [x, y, width, depth]) => Fact::Item(Item::Box {
-            pose: Pose::new(number(x)?, number(y)?, 0.0),
-            width: number(width)?,
-            depth: number(depth)?,
-        }),
-        ("box", [x, y, width, depth, heading]) => Fact::Item(Item::Box {
-            pose: Pose::new(number(x)?, number(y)?, number(heading)?),
-            width: number(width)?,
-            depth: number(depth)?,
-        }),
-        ("circle", [x, y, radius]) => {
-            Fact::Item(Item::Circle { center: [number(x)?, number(y)?], radius: number(radius)? })
-        }
-        ("floor", [color]) => Fact::Floor(named(call, "color", color)?),
-        ("patch", [color, corners]) => Fact::Item(Item::Patch {
-            corners: places(call, corners)?,
-            color: named(call, "color", color)?,
-        }),
-        ("line", [color, width, along]) => Fact::Item(Item::Line {
-            points: places(call, along)?,
-            width: number(width)?,
-            color: named(call, "color", color)?,
-        }),
-        ("lamp", [x, y, intensity]) => {
-            Fact::Item(Item::Lamp { at: [number(x)?, number(y)?], intensity: number(intensity)? })
-        }
-        ("lamp", [x, y, intensity, port]) => Fact::Item(Item::Bulb {
-            at: [number(x)?, number(y)?],
-            intensity: number(intensity)?,
-            port: named(call, "port", port)?,
-        }),
-        ("beacon", [x, y, channel]) => {
-            let channel = channel_of(call, channel)?;
-            Fact::Item(Item::Beacon { at: [number(x)?, number(y)?], channel })
-        }
-        ("ambient", [percent]) => Fact::Ambient(number(percent)?),
-        ("temperature", [celsius]) => Fact::Temperature(number(celsius)?),
-        ("loudness", [percent]) => Fact::Loudness(number(percent)?),
-        ("start", [x, y, heading]) => Fact::Start(pose(call, [x, y, heading])?),
-        ("start", [name, x, y, heading]) => {
-            Fact::NamedStart(call.text(name)?.into(), pose(call, [x, y, heading])?)
-        }
-        ("map", [size, rows]) => Fact::Map(drawn(call, size, rows)?),
-        ("left_wheel", [port, diameter, options @ ..]) => {
-            Fact::LeftWheel(wheel(call, port, diameter, options)?)
-        }
-        ("right_wheel", [port, diameter, options @ ..]) => {
-            Fact::RightWheel(wheel(call, port, diameter, options)?)
-        }
-        ("axle", [length]) => Fact::Axle(number(length)?),
-        ("hull", [hull]) => Fact::Hull(self::hull(call, hull)?),
-        ("mass", [mass]) => Fact::Mass(number(mass)?),
-        ("motor", [port, driver, options @ ..]) => Fact::Motor(MotorMount {
-            port: named(call, "port", port)?,
-            driver: call.text(driver)?.into(),
-            noise: None,
-            encoder_noise: None,
-            stops: stops(call, options)?,
-        }),
-        ("sensor", [port, driver, x, y, heading]) => Fact::Sensor(SensorMount {
-            port: named(call, "port", port)?,
-            driver: call.text(driver)?.into(),
-            pose: pose(call, [x, y, heading])?,
-            noise: None,
-            echo: Echo::default(),
-        }),
-        ("noise", [port, sigma, bias]) => Fact::Noise(
-            named(call, "port", port)?,
-            Noise { sigma: number(sigma)?, bias: number(bias)? },
-        ),
-        ("echo", [port, options]) => Fact::Echo(named(call, "port", port)?, echo(call, options)?),
-        ("encoder_noise", [port, sigma]) => {
-            Fact::EncoderNoise(named(call, "port", port)?, number(sigma)?)
-        }
-        _ => return Ok(None),
-    };
-    Ok(Some(fact))
+    kind: Kind,
+    term: &Term<'a>,
+) -> PrologResult<Value> {
+    Ok(match kind {
+        Kind::Number => Value::Number(call.float(term)?),
+        Kind::Channel => Value::Channel(channel_of(call, term)?),
+        Kind::Color => Value::Color(named(call, "color", term)?),
+        Kind::Port => Value::Port(named(call, "port", term)?),
+        Kind::Text => Value::Text(call.text(term)?.into()),
+        Kind::Places => Value::Places(places(call, term)?),
+        Kind::Rows => Value::Rows(drawing(call, term)?.0),
+        Kind::Hull => Value::Hull(hull(call, term)?),
+        Kind::WheelOptions => wheel_options(call, term)?,
+        Kind::MotorOptions => Value::MotorOptions(stops(call, term)?),
+        Kind::EchoOptions => Value::EchoOptions(echo(call, term)?),
+    })
 }
 
-/// The items that a drawing adds to a world.
-fn drawn<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    size: &Term<'a>,
-    rows: &Term<'a>,
-) -> PrologResult<Drawn> {
-    let drawn = drawing(call, rows)?.drawn(call.float(size)?);
-    drawn.or_else(|error| wrong_because(call, "possible_geometry", size, &error.to_string()))
-}
-
-/// A map that is drawn: a list of texts, from above.
+/// A map that is drawn, a list of texts from above: these, and what they mean.
 pub(crate) fn drawing<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     rows: &Term<'a>,
-) -> PrologResult<Drawing> {
+) -> PrologResult<(Vec<String>, Drawing)> {
     let list = call.list(rows)?;
-    let texts = list.iter().map(|row| call.text(row)).collect::<PrologResult<Vec<_>>>()?;
-    Drawing::read(&texts).or_else(|error| {
+    let texts = list.iter().map(|row| call.text(row).map(Into::into));
+    let texts = texts.collect::<PrologResult<Vec<String>>>()?;
+    let drawing = Drawing::read(&texts).or_else(|error| {
         let row = match *error.parts {
             [Part::MapRow(row)] => list.get(row),
             _ => None,
         };
         wrong_because(call, "map_row", row.unwrap_or(rows), &error.to_string())
-    })
+    })?;
+    Ok((texts, drawing))
 }
 
 /// A pose from three numbers: cm, cm, degrees.
@@ -236,31 +178,21 @@ pub(crate) fn remote_buttons<'a, C: QueryableContextType>(
     call.list(term)?.iter().map(button).collect()
 }
 
-/// A wheel: its port, its diameter in cm, and perhaps a list of `inverted(Bool)`
-/// and `slip(Share)`.
-fn wheel<'a, C: QueryableContextType>(
+/// A list of `inverted(Bool)` and `slip(Share)`.
+fn wheel_options<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
-    port: &Term<'a>,
-    diameter: &Term<'a>,
-    options: &[Term<'a>],
-) -> PrologResult<Wheel> {
-    let mut wheel = Wheel {
-        port: named(call, "port", port)?,
-        diameter: call.float(diameter)?,
-        inverted: false,
-        slip: 0.0,
-    };
-    for options in options {
-        for option in call.list(options)? {
-            let [value] = call.arguments(&option)?;
-            match &*option.get::<Functor>()?.name_string() {
-                "inverted" => wheel.inverted = boolean(call, &value)?,
-                "slip" => wheel.slip = call.float(&value)?,
-                _ => return wrong_because(call, "wheel_option", &option, ""),
-            }
+    options: &Term<'a>,
+) -> PrologResult<Value> {
+    let (mut inverted, mut slip) = (false, 0.0);
+    for option in call.list(options)? {
+        let [value] = call.arguments(&option)?;
+        match &*option.get::<Functor>()?.name_string() {
+            "inverted" => inverted = boolean(call, &value)?,
+            "slip" => slip = call.float(&value)?,
+            _ => return wrong_because(call, "wheel_option", &option, ""),
         }
     }
-    Ok(wheel)
+    Ok(Value::WheelOptions { inverted, slip })
 }
 
 /// A list of `half_angle(Degrees)`, `incidence(Degrees)`, `miss(Share)`, `spurious(Share)`.
@@ -283,20 +215,18 @@ fn echo<'a, C: QueryableContextType>(call: &Call<'a, C>, options: &Term<'a>) -> 
     Ok(echo)
 }
 
-/// What an optional list of `stops(Min, Max)` says, in degrees.
+/// What a list of `stops(Min, Max)` says, in degrees.
 fn stops<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
-    options: &[Term<'a>],
+    options: &Term<'a>,
 ) -> PrologResult<Option<[f64; 2]>> {
     let mut stops = None;
-    for options in options {
-        for option in call.list(options)? {
-            match call.compound(&option)? {
-                Some((name, ends)) if name == "stops" && ends.len() == 2 => {
-                    stops = Some([call.float(&ends[0])?, call.float(&ends[1])?]);
-                }
-                _ => return wrong_because(call, "mounting_option", &option, ""),
+    for option in call.list(options)? {
+        match call.compound(&option)? {
+            Some((name, ends)) if name == "stops" && ends.len() == 2 => {
+                stops = Some([call.float(&ends[0])?, call.float(&ends[1])?]);
             }
+            _ => return wrong_because(call, "mounting_option", &option, ""),
         }
     }
     Ok(stops)

@@ -9,7 +9,7 @@ natives! {
     /// start(Cell, Heading) or `none`, and a cell is `[X, Y]`.
     semidet fn "grid_drawn_"(context, rows, drawn) {
         let call = Call::of(context, "grid_map", 2);
-        let drawing = drawing(&call, rows)?;
+        let (_, drawing) = drawing(&call, rows)?;
         let cells = drawing.obstructed().map(|cell| cell_term(&call, cell));
         let obstructed = context.new_term_ref();
         obstructed.unify(cells.collect::<PrologResult<Vec<_>>>()?.as_slice())?;

@@ -8,8 +8,8 @@ use ev3_motion::{OUT_OF_RANGE, is_in_range};
 use ev3_roadmap::{
     Fault, Map, Method, NoWay, Obstacle, Options, Path, Segment, Solution, plan, svg,
 };
-use ev3_sim::Item;
 use ev3_sim::facts::{Fact, Subject};
+use ev3_sim::{Item, Shape};
 use swipl::prelude::*;
 
 natives! {
@@ -118,17 +118,13 @@ fn add(map: &mut Map, fact: Fact) -> Result<(), Fault> {
 
 /// The solid form of an item, if it has one.
 fn obstacle(item: &Item) -> Option<Result<Obstacle, Fault>> {
-    match *item {
-        Item::Wall { from, to, thickness } => Some(Obstacle::wall(from, to, thickness)),
-        Item::Box { pose, width, depth } => {
+    match item.shape() {
+        Shape::Bar { from, to, thickness } => Some(Obstacle::wall(from, to, thickness)),
+        Shape::Box { pose, width, depth } => {
             Some(Obstacle::rectangle([pose.x, pose.y], width, depth, pose.heading))
         }
-        Item::Circle { center, radius } => Some(Obstacle::circle(center, radius)),
-        Item::Patch { .. }
-        | Item::Line { .. }
-        | Item::Lamp { .. }
-        | Item::Bulb { .. }
-        | Item::Beacon { .. } => None,
+        Shape::Disc { center, radius } => Some(Obstacle::circle(center, radius)),
+        Shape::Area { .. } | Shape::Band { .. } | Shape::Mark { .. } => None,
     }
 }
 

@@ -168,6 +168,7 @@ class RustCrate:
 
 
 # ---- Prolog ----
+# library(prolog_xref) finds the same arrows, but needs as many lines, and a second process.
 
 # The first quote of 0'c is no quote, and a quoted atom has no bare newline.
 PROLOG_NOISE = re.compile(r"""0'(?:\\.|''|.)|%[^\n]*|/\*.*?\*/|("(?:\\.|[^"\\])*")""", re.S)

@@ -116,23 +116,6 @@ def makefile(text):
     return targets, phony, told
 
 
-def natives(text):
-    """The foreign predicates that a file of Rust defines: name, arity, nondeterministic."""
-    return {(found[2], len([part for part in found[3].split(",") if part.strip()]) - 1, found[1] == "nondet")
-            for found in re.finditer(r'(\w+) fn "(\w+)"(?:<[^(]*>)?\(([^)]*)\)', text)}
-
-
-def declared(text):
-    """The predicates that native.pl says a file has: file, name, arity, nondeterministic."""
-    heads = []
-    for line in text.split("\n"):
-        if found := re.match(r"%!  (\w+)(?:\((.*)\))? is (\w+)\.", line):
-            heads.append((found[1], found[2].count(",") + 1 if found[2] else 0, found[3] == "nondet"))
-        elif found := re.match(r"%   `(src/[\w/]+\.rs)`", line):
-            yield from ((found[1], *head) for head in heads)
-            heads = []
-
-
 def words(folder, files, pattern):
     """The words that a pattern finds in the files below a folder."""
     return {word for path, text in files.items() if path.startswith(folder)
@@ -155,11 +138,6 @@ def compared(files, papers):
     yield "CONTRIBUTING.md, or what makes others", "targets that check", None, (
         {name for name in targets if name.startswith("check")},
         set(re.findall(r"[\w-]+(?!:)", papers["CONTRIBUTING.md"])) | set(re.findall(r" ([\w-]+)", recipes)))
-    rust = {(path, *native) for path, text in files.items()
-            if path.startswith("src/") and not path.startswith("src/glue/") for native in natives(text)}
-    told = set(declared(files["prolog/ev3dev/private/native/native.pl"]))
-    yield "natives! of src", "comments of private/native/native.pl", None, (told, rust)
-    yield "comments of private/native/native.pl", "natives! of src", {each[1:] for each in told}, {each[1:] for each in rust}
     rooms = {path.split("/")[3] for path in files if re.match(r"prolog/ev3dev/private/[^/]+/", path)}
     yield "README.md of each room", "folders of private", {path.split("/")[3] for path in papers if re.fullmatch(
         r"prolog/ev3dev/private/[^/]+/README\.md", path)}, rooms
@@ -170,7 +148,8 @@ def compared(files, papers):
     state = files["src/view/state.rs"]
     objects = state[state.index("objects! {\n"):]
     fields = set(re.findall(r"^        (?:r#)?(\w+): .*,$", objects[:objects.index("\n}\n")], flags=re.M))
-    yield "docs/view-protocol.md", "keys of src/view/state.rs", None, (fields, set(re.findall(r'"(\w+)":', page)) | set(re.findall(r"`(\w+)", page)))
+    fields |= words("crates/sim/src/world/item.rs", files, r'\("(\w+)", (?:[A-Z]\w+\(|\*)')
+    yield "docs/view-protocol.md", "keys of src/view/state.rs and item.rs", None, (fields, set(re.findall(r'"(\w+)":', page)) | set(re.findall(r"`(\w+)", page)))
     table = page[page.index("### Page -> server"):page.index("Each but `next`")]
     lines = {word for cell in re.findall(r"^\| ([^|]*) \|", table, flags=re.M)
              for word in re.findall(r"`([a-z]+)", cell)} - {"x"}
@@ -207,10 +186,17 @@ def compared(files, papers):
     yield "docs/ev3dev-sysfs.md", "sensor types", None, (
         set(re.findall(r"^type\('([\w-]+)'", tables, flags=re.M)),
         set(re.findall(r"[\w-]+", papers["docs/ev3dev-sysfs.md"])))
-    facts = files["crates/sim/src/facts.rs"]
-    facts = facts[facts.index("fn vocabulary"):facts.index("fn expected")]
+    item = files["crates/sim/src/world/item.rs"]
+    form = r'Form::\w+\(\s*"(\w+)"'
+    things = set(re.findall(form, item))
+    facts = things | set(re.findall(form, files["crates/sim/src/facts.rs"]))
     yield "docs/worlds.md", "facts of worlds and robots", None, (
-        set(re.findall(r'\("(\w+)", &\[', facts)), set(re.findall(r"`(\w+)\(", papers["docs/worlds.md"])))
+        facts, set(re.findall(r"`(\w+)\(", papers["docs/worlds.md"])))
+    yield "comment of sim.pl", "facts of worlds and robots", None, (
+        facts, set(re.findall(r"^  - (\w+)\(", files["prolog/ev3dev/sim.pl"], flags=re.M)))
+    kinds = files["prolog/ev3dev/view/things.js"].partition("KINDS = {")[2]
+    yield "KINDS of things.js", "things of item.rs", set(
+        re.findall(r"^  (\w+): \{", kinds, flags=re.M)) - {"start", "around"}, things
     code = " ".join(text for path, text in files.items() if path.startswith(("prolog/", "src/", "crates/", "tests/", "tools/")))
     names_used = r"\b(?:EV3DEV_[A-Z_]+|ev3dev_(?:hints|stop_at_\w+|brick))\b"
     yield "code", "variables and flags in papers", None, (
@@ -270,8 +256,6 @@ def self_test():
         sys.exit(f"papers.py: found {found}, not {expected}")
     if makefile("# x\na: b\nc:\n.PHONY: a \\\n c\n") != ({"a", "c"}, {"a", "c"}, {"a"}):
         sys.exit("papers.py: the Makefile is misread")
-    if natives('det fn "a_"(_context) {\nnondet fn "b_"<X<Y>>(context, p, q) {') != {("a_", 0, False), ("b_", 2, True)}:
-        sys.exit("papers.py: natives are misread")
 
 
 def main():

@@ -61,8 +61,8 @@ sim_place(X0, Y0, Heading0) :-
 %!  sim_add(+Fact) is semidet.
 %!  sim_add(+Fact, -Id) is semidet.
 %
-%   Add a wall, box, circle, patch, line, lamp or beacon to the world, by a
-%   Fact of world files. Id is a number by which sim_remove/1 removes it.
+%   Add a thing to the world, such as a box or a lamp, by a Fact of world
+%   files. Id is a number by which sim_remove/1 removes it.
 %
 %   @error domain_error(possible_geometry, Item) if the item is impossible, or
 %          if the robot stands there

@@ -73,6 +73,21 @@ natives! {
         known_fact(&call, subject_of(&call, subject)?, term).map(drop)
     }
 
+    /// sim_forms_(-Forms): what facts look like, each `thing(Form)`, `world(Form)` or `robot(Form)`.
+    /// A form has an argument `Name:Kind` for each of the fact.
+    semidet fn "sim_forms_"(context, forms) {
+        let call = Call::of(context, "sim_start", 2);
+        let terms = [Subject::World, Subject::Robot].into_iter().flat_map(|subject| {
+            subject.forms().flat_map(move |(form, is_thing)| {
+                (form.least..=form.arguments.len()).map(move |count| (subject, is_thing, form, count))
+            })
+        });
+        let terms = terms.map(|(subject, is_thing, form, count)| {
+            facts::form_term(&call, if is_thing { "thing" } else { subject.name() }, form, count)
+        });
+        forms.unify(terms.collect::<PrologResult<Vec<_>>>()?.as_slice())
+    }
+
     /// sim_start_(+WorldFacts, +RobotFacts, +options(Clock, Seed, Noise, ScreenBits), -Fault):
     /// fault is `none`, or fault(Subject, Index, Why) for the faulty fact. Index counts from
     /// 1; 0 means that a fact is missing.
@@ -145,8 +160,11 @@ natives! {
         let call = Call::of(context, "sim_add", 1);
         let item = match facts::fact(&call, Subject::World, term)? {
             Some(Fact::Item(item)) => item,
-            Some(_) => return wrong_value(&call, "world_item", term),
-            None => return wrong_value(&call, "world_or_robot_fact", term),
+            other => {
+                let domain = if other.is_some() { "world_item" } else { "world_or_robot_fact" };
+                let (name, _) = call.compound(term)?.unwrap_or_default();
+                return wrong_because(&call, domain, term, &Subject::World.expected_thing(&name));
+            }
         };
         let added = simulation(context)?.change_world(|machine| machine.add_item(item));
         id.unify(i64::from(possible(&call, added)?.0))

@@ -214,49 +214,8 @@ fn world_of(machine: &Machine) -> World {
 }
 
 fn item_of(id: ItemId, item: &ev3_sim::Item) -> Item {
-    use ev3_sim::Item as Thing;
-    let mut shown = Item { id: id.0.into(), kind: item.kind(), ..Item::default() };
-    let at = match item {
-        Thing::Wall { from, to, thickness } => {
-            (shown.from, shown.to) = (Some(fine(*from)), Some(fine(*to)));
-            shown.thickness = Some(Decimal(*thickness));
-            None
-        }
-        Thing::Box { pose, width, depth } => {
-            [shown.w, shown.d, shown.h] = fine([*width, *depth, pose.heading]).map(Some);
-            Some([pose.x, pose.y])
-        }
-        Thing::Circle { center, radius } => {
-            shown.r = Some(Decimal(*radius));
-            Some(*center)
-        }
-        Thing::Patch { corners, color } => {
-            shown.color = Some(color.to_string().into());
-            shown.points = Some(points(corners));
-            None
-        }
-        Thing::Line { points: line, width, color } => {
-            shown.color = Some(color.to_string().into());
-            shown.width = Some(Decimal(*width));
-            shown.points = Some(points(line));
-            None
-        }
-        Thing::Lamp { at, intensity } => {
-            shown.intensity = Some(Decimal(*intensity));
-            Some(*at)
-        }
-        Thing::Bulb { at, intensity, port } => {
-            shown.intensity = Some(Decimal(*intensity));
-            shown.port = Some(port.name());
-            Some(*at)
-        }
-        Thing::Beacon { at, channel } => {
-            shown.channel = Some((*channel).into());
-            Some(*at)
-        }
-    };
-    [shown.x, shown.y] = at.map_or([None; 2], |at| fine(at).map(Some));
-    shown
+    let (kind, members) = item.members();
+    Item { id: id.0.into(), kind, members, name: None }
 }
 
 /// The samples after a moment, or all, and the time of the last one; `None` if there are none.

@@ -2,6 +2,7 @@
 //! them from the simulator, `brick.rs` from the driver, and only here they are written as JSON.
 use crate::glue::state::watched;
 use ev3_json::Json;
+use ev3_sim::facts::Value;
 use std::borrow::Cow;
 use std::time::Duration;
 
@@ -306,28 +307,6 @@ objects! {
         items: Vec<Item>,
     }
 
-    /// A thing in the world.
-    Item {
-        id: u64,
-        kind: &'static str,
-        x: Option<Fine>,
-        y: Option<Fine>,
-        w: Option<Fine>,
-        d: Option<Fine>,
-        h: Option<Fine>,
-        r: Option<Fine>,
-        from: Option<Point>,
-        to: Option<Point>,
-        thickness: Option<Fine>,
-        color: Option<Text>,
-        width: Option<Fine>,
-        points: Option<Vec<Point>>,
-        intensity: Option<Fine>,
-        port: Option<&'static str>,
-        channel: Option<u64>,
-        name: Option<Text>,
-    }
-
     /// Its pixels line by line: one bit each, where 1 is black, a shade of gray, or a color.
     Screen {
         w: u64,
@@ -335,6 +314,37 @@ objects! {
         bits: Option<Base64>,
         gray: Option<Base64>,
         rgb: Option<Base64>,
+    }
+}
+
+/// A thing in the world: the arguments of its fact under the names that pages have for them.
+pub(super) struct Item {
+    pub(super) id: u64,
+    pub(super) kind: &'static str,
+    pub(super) members: Vec<(&'static str, Value)>,
+    pub(super) name: Option<Text>,
+}
+
+impl Report for Item {
+    fn report(&self, json: &mut Json) {
+        json.object(|json| {
+            member(json, "id", &self.id);
+            member(json, "kind", &self.kind);
+            self.members.iter().for_each(|(name, value)| member(json, name, value));
+            member(json, "name", &self.name);
+        });
+    }
+}
+
+impl Report for Value {
+    fn report(&self, json: &mut Json) {
+        match self {
+            Value::Number(number) => json.number(*number, 2),
+            Value::Channel(channel) => json.integer((*channel).into()),
+            Value::Place(place) => fine(*place).report(json),
+            Value::Places(places) => points(places).report(json),
+            other => json.text(&other.to_string()),
+        }
     }
 }
 

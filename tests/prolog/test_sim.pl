@@ -154,7 +154,7 @@ test(unknown_fact_with_file_and_line) :-
               Formal, Message),
     Formal == domain_error(world_fact, wal(0, 0, 1, 1)),
     says(Message, 'FILE:3:2: '),
-    says(Message, 'a world has: bounds, wall, ').
+    says(Message, 'a world has: wall, box, ').
 test(fact_with_too_many_arguments) :-
     complaint("circle(0, 0, 1, 2).\n", [], Formal, Message),
     Formal == domain_error(world_fact, circle(0, 0, 1, 2)),

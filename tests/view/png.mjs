@@ -1,4 +1,4 @@
-// A PNG with a palette: a fifth of the size of one in true color.
+// A PNG with a palette: a fifth of the size of one in true color. The package pngjs writes no palettes.
 
 import zlib from 'node:zlib';
 

@@ -4,7 +4,8 @@ use crate::brick::port::Port;
 use crate::noise::{Echo, Noise};
 use crate::robot::{Chassis, MotorMount, RobotSpec, SensorMount, Wheel};
 use crate::world::color::Color;
-use crate::world::{Drawn, Hull, Item, Part, SpecError, WorldSpec};
+pub use crate::world::form::{Form, Kind, Value};
+use crate::world::{Drawing, Drawn, Hull, Item, Part, SpecError, THINGS, WorldSpec};
 use ev3_motion::{Bounds, Pose};
 
 /// The subject of a file.
@@ -16,64 +17,98 @@ pub enum Subject {
     Robot,
 }
 
+/// The facts of worlds that are no things, and those of robots. A name may have several forms.
+const SETTINGS: &[Form] = {
+    use Kind::{Color, Number, Rows, Text};
+    const NAMED: &[(&str, Kind)] =
+        &[("Name", Text), ("X", Number), ("Y", Number), ("Heading", Number)];
+    const CORNERS: &[(&str, Kind)] =
+        &[("X1", Number), ("Y1", Number), ("X2", Number), ("Y2", Number)];
+    &[
+        Form::new("bounds", CORNERS),
+        Form::new("floor", &[("Color", Color)]),
+        Form::new("ambient", &[("Percent", Number)]),
+        Form::new("temperature", &[("Celsius", Number)]),
+        Form::new("loudness", &[("Percent", Number)]),
+        Form::new("start", NAMED.split_at(1).1),
+        Form::new("start", NAMED),
+        Form::new("map", &[("CellSize", Number), ("Rows", Rows)]),
+    ]
+};
+const OF_ROBOTS: &[Form] = {
+    use Kind::{EchoOptions, Hull, MotorOptions, Number, Port, Text, WheelOptions};
+    const PORT: (&str, Kind) = ("Port", Port);
+    const TYPE: (&str, Kind) = ("Type", Text);
+    const SIGMA: (&str, Kind) = ("Sigma", Number);
+    const WHEEL: &[(&str, Kind)] = &[PORT, ("Diameter", Number), ("Options", WheelOptions)];
+    &[
+        Form::with_default("left_wheel", WHEEL),
+        Form::with_default("right_wheel", WHEEL),
+        Form::new("axle", &[("Length", Number)]),
+        Form::new("hull", &[("Hull", Hull)]),
+        Form::new("mass", &[("Kilograms", Number)]),
+        Form::with_default("motor", &[PORT, TYPE, ("Options", MotorOptions)]),
+        Form::new("sensor", &[PORT, TYPE, ("X", Number), ("Y", Number), ("Heading", Number)]),
+        Form::new("noise", &[PORT, SIGMA, ("Bias", Number)]),
+        Form::new("encoder_noise", &[PORT, SIGMA]),
+        Form::new("echo", &[PORT, ("Options", EchoOptions)]),
+    ]
+};
+
 impl Subject {
-    /// The names of its facts, and how many arguments each may have.
-    #[must_use]
-    pub const fn vocabulary(self) -> &'static [(&'static str, &'static [usize])] {
+    /// The word for it.
+    pub const fn name(self) -> &'static str {
         match self {
-            Subject::World => &[
-                ("bounds", &[4]),
-                ("wall", &[4, 5]),
-                ("box", &[4, 5]),
-                ("circle", &[3]),
-                ("floor", &[1]),
-                ("patch", &[2]),
-                ("line", &[3]),
-                ("lamp", &[3, 4]),
-                ("beacon", &[3]),
-                ("ambient", &[1]),
-                ("temperature", &[1]),
-                ("loudness", &[1]),
-                ("start", &[3, 4]),
-                ("map", &[2]),
-            ],
-            Subject::Robot => &[
-                ("left_wheel", &[2, 3]),
-                ("right_wheel", &[2, 3]),
-                ("axle", &[1]),
-                ("hull", &[1]),
-                ("mass", &[1]),
-                ("motor", &[2, 3]),
-                ("sensor", &[5]),
-                ("noise", &[3]),
-                ("encoder_noise", &[2]),
-                ("echo", &[2]),
-            ],
+            Subject::World => "world",
+            Subject::Robot => "robot",
         }
+    }
+
+    /// The forms of its facts, and of which of them are things.
+    pub fn forms(self) -> impl Iterator<Item = (&'static Form, bool)> {
+        let (things, others) = match self {
+            Subject::World => (THINGS, SETTINGS),
+            Subject::Robot => (&[][..], OF_ROBOTS),
+        };
+        let things = things.iter().map(|form| (form, true));
+        things.chain(others.iter().map(|form| (form, false)))
     }
 
     /// What is expected instead of a fact that is not in the vocabulary: another number of
     /// arguments, or another name.
-    #[must_use]
     pub fn expected(self, name: &str) -> String {
-        let vocabulary = self.vocabulary();
-        if let Some((_, arities)) = vocabulary.iter().find(|(other, _)| *other == name) {
-            let counts: Vec<_> = arities.iter().map(usize::to_string).collect();
-            let plural = if arities == &[1] { "" } else { "s" };
+        let alike = self.forms().filter(|(form, _)| form.name == name);
+        let counts: Vec<_> =
+            alike.flat_map(|(form, _)| form.least..=form.arguments.len()).collect();
+        if !counts.is_empty() {
+            let plural = if counts == [1] { "" } else { "s" };
+            let counts: Vec<_> = counts.iter().map(usize::to_string).collect();
             return format!("{name} has {} argument{plural}", counts.join(" or "));
         }
-        let names: Vec<_> = vocabulary.iter().map(|(name, _)| *name).collect();
-        let kind = match self {
-            Subject::World => "world",
-            Subject::Robot => "robot",
-        };
-        format!("a {kind} has: {}", names.join(", "))
+        let mut names: Vec<_> = self.forms().map(|(form, _)| form.name).collect();
+        names.dedup();
+        format!("a {} has: {}", self.name(), names.join(", "))
     }
 
-    /// Whether a fact with this name and number of arguments is in the vocabulary.
-    #[must_use]
-    pub fn has(self, name: &str, arity: usize) -> bool {
-        self.vocabulary().iter().any(|(other, arities)| *other == name && arities.contains(&arity))
+    /// What is expected instead of what is no thing: the form of this name, else those of all.
+    /// They have as few arguments as they may.
+    pub fn expected_thing(self, name: &str) -> String {
+        let shown = |form: &Form| {
+            let names: Vec<_> =
+                form.arguments[..form.least].iter().map(|(name, _)| *name).collect();
+            format!("{}({})", form.name, names.join(", "))
+        };
+        let things: Vec<_> = self.forms().filter(|(_, is_thing)| *is_thing).collect();
+        if let Some((form, _)) = things.iter().find(|(form, _)| form.name == name) {
+            return format!("expected {}", shown(form));
+        }
+        let all: Vec<_> = things.iter().map(|(form, _)| shown(form)).collect();
+        format!("expected one of: {}", all.join(", "))
+    }
+
+    /// The form of a fact with this name and number of arguments.
+    pub fn form(self, name: &str, arity: usize) -> Option<&'static Form> {
+        self.forms().map(|(form, _)| form).find(|form| form.name == name && form.takes(arity))
     }
 }
 
@@ -103,6 +138,64 @@ pub enum Fact {
 }
 
 impl Fact {
+    /// The fact with this name. `None` if its arguments are others than its form says.
+    ///
+    /// # Errors
+    /// If a world cannot be drawn like that.
+    pub fn of(name: &str, arguments: &[Value]) -> Result<Option<Fact>, SpecError> {
+        use Value::{Color, EchoOptions, MotorOptions, Number, Port, Rows, Text, WheelOptions};
+        if let Some(item) = Item::of(name, arguments) {
+            return Ok(Some(Fact::Item(item)));
+        }
+        Ok(Some(match (name, arguments) {
+            ("bounds", [Number(x1), Number(y1), Number(x2), Number(y2)]) => {
+                Fact::Bounds(Bounds { low: [*x1, *y1], high: [*x2, *y2] })
+            }
+            ("floor", [Color(color)]) => Fact::Floor(*color),
+            ("ambient", [Number(percent)]) => Fact::Ambient(*percent),
+            ("temperature", [Number(celsius)]) => Fact::Temperature(*celsius),
+            ("loudness", [Number(percent)]) => Fact::Loudness(*percent),
+            ("start", [Number(x), Number(y), Number(h)]) => Fact::Start(Pose::new(*x, *y, *h)),
+            ("start", [Text(name), Number(x), Number(y), Number(h)]) => {
+                Fact::NamedStart(name.clone(), Pose::new(*x, *y, *h))
+            }
+            ("map", [Number(size), Rows(rows)]) => Fact::Map(Drawing::read(rows)?.drawn(*size)?),
+            ("left_wheel" | "right_wheel", [Port(port), Number(diameter), options @ ..]) => {
+                let (inverted, slip) = match options {
+                    [WheelOptions { inverted, slip }] => (*inverted, *slip),
+                    _ => (false, 0.0),
+                };
+                let wheel = Wheel { port: *port, diameter: *diameter, inverted, slip };
+                if name == "left_wheel" { Fact::LeftWheel(wheel) } else { Fact::RightWheel(wheel) }
+            }
+            ("axle", [Number(length)]) => Fact::Axle(*length),
+            ("hull", [Value::Hull(hull)]) => Fact::Hull(*hull),
+            ("mass", [Number(mass)]) => Fact::Mass(*mass),
+            ("motor", [Port(port), Text(driver), options @ ..]) => Fact::Motor(MotorMount {
+                port: *port,
+                driver: driver.clone(),
+                noise: None,
+                encoder_noise: None,
+                stops: if let [MotorOptions(stops)] = options { *stops } else { None },
+            }),
+            ("sensor", [Port(port), Text(driver), Number(x), Number(y), Number(h)]) => {
+                Fact::Sensor(SensorMount {
+                    port: *port,
+                    driver: driver.clone(),
+                    pose: Pose::new(*x, *y, *h),
+                    noise: None,
+                    echo: Echo::default(),
+                })
+            }
+            ("noise", [Port(port), Number(sigma), Number(bias)]) => {
+                Fact::Noise(*port, Noise { sigma: *sigma, bias: *bias })
+            }
+            ("encoder_noise", [Port(port), Number(sigma)]) => Fact::EncoderNoise(*port, *sigma),
+            ("echo", [Port(port), EchoOptions(echo)]) => Fact::Echo(*port, *echo),
+            _ => return Ok(None),
+        }))
+    }
+
     /// Whether this fact sets a part, where `items`, `motors` and `sensors` count those of the facts
     /// before it.
     fn sets(&self, part: Part, [items, motors, sensors]: [usize; 3]) -> bool {
@@ -159,7 +252,6 @@ pub fn culprit(facts: &[Fact], error: &SpecError) -> Option<usize> {
 impl WorldSpec {
     /// The world that facts describe. Later ones override earlier ones. Facts about robots are
     /// ignored.
-    #[must_use]
     pub fn from_facts(facts: &[Fact]) -> WorldSpec {
         let mut world = WorldSpec::default();
         for fact in facts {

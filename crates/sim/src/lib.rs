@@ -141,5 +141,5 @@ pub use shared::Shared;
 pub use trace::{Action, Collision, Event, Trace};
 pub use world::color::{Color, UnknownColor};
 pub use world::{
-    Cell, Drawing, Drawn, Hull, Item, ItemId, Part, SpecError, WorldSpec, check_bounds,
+    Cell, Drawing, Drawn, Hull, Item, ItemId, Part, Shape, SpecError, WorldSpec, check_bounds,
 };

@@ -3,9 +3,9 @@
 // where the robot can stand; one that is refused is undone.
 
 import { $, attribute, download, el, icon, notice, pressed, text, toggle } from './dom.js';
-import { COLORS, EMPTY, KINDS, draftOf, factsOf, named, outside, worldOf } from './things.js';
+import { COLORS, EMPTY, KINDS, along, draftOf, factsOf, named, outside, worldOf } from './things.js';
 
-const TOOLS = [['wall', 'Wall'], ['box', 'Box'], ['circle', 'Circle'], ['line', 'Line'], ['patch', 'Patch'], ['lamp', 'Lamp']];
+const TOOLS = Object.entries(KINDS).filter(([, { tool }]) => tool).map(([kind, { tool }]) => [kind, tool]);
 const NEAR = 12;
 /** A line to the program has at most 64 kB. */
 const LONGEST = 60000;
@@ -361,7 +361,7 @@ export class Editor {
         }
       } else {
         this.stopDrawing();
-        this.add(KINDS[tool].between(from, dragged || tool === 'lamp' ? to : [from[0] + 20, from[1] + 20]));
+        this.add(KINDS[tool].between(from, dragged || KINDS[tool].click ? to : [from[0] + 20, from[1] + 20]));
       }
     }
     this.grabbed = null;
@@ -386,11 +386,9 @@ export class Editor {
       const { from, to, points } = this.drawing;
       const tool = KINDS[this.tool];
       const ghost = points ? { ...tool.between(from, to), points: [...points, to] } : tool.between(from, to);
-      const outline = ghost.kind === 'circle' || ghost.kind === 'lamp' ? null : ghost.points ?? (ghost.kind === 'box' ? tool.handles(ghost, 0).slice(0, 4) : [from, to]);
       c.beginPath();
-      if (outline) outline.forEach(([x, y], i) => (i ? c.lineTo(x, y) : c.moveTo(x, y)));
+      if (tool.outline) along(c, tool.outline(ghost), tool.closed);
       else c.arc(ghost.x, ghost.y, ghost.r ?? 4 * dot, 0, 7);
-      if (ghost.kind === 'box' || ghost.kind === 'patch') c.closePath();
       c.strokeStyle = paint.blue;
       c.lineWidth = Math.max(2 * dot, ghost.width ?? ghost.thickness ?? 0);
       c.globalAlpha = 0.7;
@@ -477,8 +475,7 @@ export class Editor {
   }
 
   said(thing) {
-    const drawing = { line: 'Click place by place; click the last one twice, or Enter. Or drag.', lamp: 'Click where it is.' };
-    const words = this.tool ? drawing[this.tool] ?? 'Drag it in the world.' : KINDS[thing.kind].words(thing);
+    const words = this.tool ? KINDS[this.tool].hint ?? 'Drag it in the world.' : KINDS[thing.kind].words(thing);
     text(this.hint, words);
   }
 

@@ -2,6 +2,7 @@
 
 import { Camera } from './camera.js';
 import { $, el, nice, num } from './dom.js';
+import { KINDS, along } from './things.js';
 
 export const TURN = Math.PI / 180;
 /** Two dimensions: 95 % of all cases lie within this many standard deviations. */
@@ -96,19 +97,7 @@ export class Picture extends Camera {
       c.lineWidth = dot;
       c.stroke();
     }
-    for (const item of world?.items ?? []) {
-      if (item.kind === 'patch') {
-        this.outline(c, item.points);
-        c.fillStyle = this.tone(item.color);
-        c.fill();
-      } else if (item.kind === 'line') {
-        c.beginPath();
-        item.points.forEach(([x, y], i) => (i ? c.lineTo(x, y) : c.moveTo(x, y)));
-        c.strokeStyle = this.tone(item.color);
-        c.lineWidth = item.width;
-        c.stroke();
-      }
-    }
+    for (const item of world?.items ?? []) KINDS[item.kind].lay?.(c, item, this);
     if (world?.bounds) {
       const thick = Math.max(1, 3 * dot);
       c.strokeStyle = this.paint.wall;
@@ -119,29 +108,12 @@ export class Picture extends Camera {
     }
   }
 
-  outline(c, points) {
-    c.beginPath();
-    points.forEach(([x, y], i) => (i ? c.lineTo(x, y) : c.moveTo(x, y)));
-    c.closePath();
-  }
-
   /** The path of an item, for drawing and for finding what is pointed at. */
   shape(item, at = item) {
     const path = new Path2D();
-    if (item.kind === 'circle') path.arc(at.x, at.y, item.r, 0, 7);
-    else if (item.kind === 'box') {
-      const turned = new Path2D();
-      turned.rect(-item.w / 2, -item.d / 2, item.w, item.d);
-      path.addPath(turned, new DOMMatrix().translateSelf(at.x, at.y).rotateSelf(-(item.h ?? 0)));
-    } else if (item.kind === 'wall') {
-      const [[x1, y1], [x2, y2]] = [item.from, item.to];
-      const length = Math.hypot(x2 - x1, y2 - y1) || 1;
-      const half = Math.max(item.thickness, 1.5 * this.dot) / 2 / length;
-      const [nx, ny] = [(y2 - y1) * half, (x1 - x2) * half];
-      path.moveTo(x1 + nx, y1 + ny); path.lineTo(x2 + nx, y2 + ny);
-      path.lineTo(x2 - nx, y2 - ny); path.lineTo(x1 - nx, y1 - ny);
-      path.closePath();
-    } else path.arc(at.x, at.y, Math.max(4, 10 * this.dot), 0, 7);
+    const kind = KINDS[item.kind];
+    if (kind.path) kind.path(path, item, at, this.dot);
+    else path.arc(at.x, at.y, Math.max(4, 10 * this.dot), 0, 7);
     return path;
   }
 
@@ -149,20 +121,19 @@ export class Picture extends Camera {
     const { frame, world } = this.model;
     const others = frame.others ?? [];
     for (const item of [...(world?.items ?? []), ...others]) {
-      if (item.kind === 'patch' || item.kind === 'line') continue;
+      const { solid, paint } = KINDS[item.kind];
       const moving = this.drag?.kind === 'item' && this.drag.item.id === item.id ? this.drag.at : item;
-      if (item.kind === 'lamp') this.drawLamp(c, item, moving, frame);
-      else if (item.kind === 'beacon') this.drawBeacon(c, item, moving);
-      else {
+      paint?.(c, item, moving, this);
+      if (solid) {
         const path = this.shape(item, moving);
         c.save();
         c.shadowColor = this.dark ? 'rgb(0 0 0 / .45)' : 'rgb(50 44 20 / .22)';
         c.shadowBlur = 7 * this.ratio;
         c.shadowOffsetY = 2.5 * this.ratio;
-        c.fillStyle = item.kind === 'wall' ? this.paint.wall : others.includes(item) ? '#e8a33d' : this.paint.block;
+        c.fillStyle = others.includes(item) ? '#e8a33d' : this.paint[solid];
         c.fill(path);
         c.restore();
-        if (item.kind !== 'wall') {
+        if (solid !== 'wall') {
           c.strokeStyle = this.selected?.id === item.id ? this.paint.ink : this.paint['block-edge'];
           c.lineWidth = (this.selected?.id === item.id ? 2 : 1) * this.dot;
           c.stroke(path);
@@ -170,44 +141,6 @@ export class Picture extends Camera {
         if (item.name) this.label(c, item.name, item.x, item.y + (item.r ?? Math.hypot(item.w, item.d) / 2) + 9 * this.dot, this.paint.ink, 600, this.paint.card);
       }
     }
-  }
-
-  drawLamp(c, item, at, frame) {
-    const power = item.port ? frame.beams?.find((beam) => beam.id === item.id)?.power ?? 0 : 1;
-    const reach = Math.max(24 * this.dot, Math.min(90, 8 * Math.sqrt(item.intensity)));
-    if (power > 0.01) {
-      const glow = c.createRadialGradient(at.x, at.y, 0, at.x, at.y, reach);
-      const strength = (this.dark ? 0.5 : 0.75) * power;
-      glow.addColorStop(0, `rgb(255 200 40 / ${strength})`);
-      glow.addColorStop(0.4, `rgb(255 205 60 / ${strength * 0.3})`);
-      glow.addColorStop(1, 'rgb(255 210 80 / 0)');
-      c.fillStyle = glow;
-      c.beginPath();
-      c.arc(at.x, at.y, reach, 0, 7);
-      c.fill();
-    }
-    const r = Math.max(2.2, 6 * this.dot);
-    c.beginPath();
-    c.arc(at.x, at.y, r, 0, 7);
-    c.fillStyle = power > 0.01 ? '#fff3c4' : this.paint.off;
-    c.fill();
-    c.lineWidth = 1.5 * this.dot;
-    c.strokeStyle = power > 0.01 ? '#b98900' : this.paint['block-edge'];
-    c.stroke();
-    if (item.port) this.label(c, item.port, at.x, at.y - r - 9 * this.dot);
-  }
-
-  drawBeacon(c, item, at) {
-    c.strokeStyle = this.paint.violet;
-    for (const [radius, alpha] of [[6, 1], [11, 0.5], [16, 0.25]]) {
-      c.globalAlpha = alpha;
-      c.lineWidth = 1.5 * this.dot;
-      c.beginPath();
-      c.arc(at.x, at.y, radius * this.dot, 0, 7);
-      c.stroke();
-    }
-    c.globalAlpha = 1;
-    this.label(c, String(item.channel), at.x, at.y, this.paint.violet, 700);
   }
 
   label(c, words, x, y, color = this.paint.soft, weight = 500, halo = null) {
@@ -387,7 +320,8 @@ export class Picture extends Camera {
           c.stroke();
           continue;
         }
-        this.outline(c, [[x, y], ...fan]);
+        c.beginPath();
+        along(c, [[x, y], ...fan], true);
         const reach = Math.max(1, ...fan.map((p) => Math.hypot(p[0] - x, p[1] - y)));
         const fade = c.createRadialGradient(x, y, 0, x, y, reach);
         c.globalAlpha = this.dark ? 0.34 : 0.26;

@@ -1,6 +1,7 @@
-// What there is in a world: how each kind of thing begins, moves, is taken by its handles,
-// what can be typed of it, and its fact. Things are items as in docs/view-protocol.md; the
-// start, and the world around everything, count as things here.
+// What there is in a world: how each kind of thing looks, begins, moves, is taken by its handles,
+// what can be typed of it, and its fact. The page knows a kind of thing in this file alone.
+// Things are items as in docs/view-protocol.md; the start, and the world around everything,
+// count as things here.
 
 const TURN = Math.PI / 180;
 
@@ -36,8 +37,9 @@ const moved = (thing, [dx, dy]) => ({ ...thing, x: cm(thing.x + dx), y: cm(thing
 const turned = (thing, by) => ({ ...thing, h: Math.round((thing.h ?? 0) + by) % 360 });
 const handleAhead = (thing, [, way]) => out(thing, [0, way]);
 
-/** With points: each is a handle. */
+/** With points: each is a handle. It lies on the floor. */
 const pointed = {
+  outline: (thing) => thing.points,
   move: (thing, by) => ({ ...thing, points: thing.points.map((point) => add(point, by)) }),
   turn: (thing, by) => {
     const [x, y] = mean(thing.points);
@@ -51,8 +53,27 @@ const pointed = {
 /** Of a thing that is a point. */
 const placed = { move: moved, turn: null, handles: () => [], take: null, points: (thing) => [[thing.x, thing.y]] };
 
+const corners = (box) => [[1, 1], [1, -1], [-1, -1], [-1, 1]].map(([a, b]) => out(box, [(a * box.w) / 2, (b * box.d) / 2]));
+
+/** A path through points, on a canvas or as a Path2D. */
+export function along(path, points, closed = false) {
+  points.forEach(([x, y], i) => (i ? path.lineTo(x, y) : path.moveTo(x, y)));
+  if (closed) path.closePath();
+}
+
+// Of each kind: `tool`, if the editor can draw it; `solid`, its color if it is an obstacle, with its
+// `path`; else `lay`, if it lies on the floor, or `paint` draws it. `at` is where it is while it is
+// moved; `picture` is that of picture.js.
 export const KINDS = {
   wall: {
+    tool: 'Wall',
+    solid: 'wall',
+    path: (path, { from: [x1, y1], to: [x2, y2], thickness }, at, dot) => {
+      const half = Math.max(thickness, 1.5 * dot) / 2 / (Math.hypot(x2 - x1, y2 - y1) || 1);
+      const [nx, ny] = [(y2 - y1) * half, (x1 - x2) * half];
+      along(path, [[x1 + nx, y1 + ny], [x2 + nx, y2 + ny], [x2 - nx, y2 - ny], [x1 - nx, y1 - ny]], true);
+    },
+    outline: (wall) => [wall.from, wall.to],
     words: (wall) => `Wall from ${wall.from.join(', ')} to ${wall.to.join(', ')}`,
     fields: [part('From x', 'from', 0), part('From y', 'from', 1), part('To x', 'to', 0), part('To y', 'to', 1), number('Thickness', 'thickness')],
     between: (a, b) => ({ kind: 'wall', from: a, to: b, thickness: 1 }),
@@ -68,12 +89,21 @@ export const KINDS = {
     fact: (wall) => `wall(${[...wall.from, ...wall.to, ...(wall.thickness === 1 ? [] : [wall.thickness])].join(', ')})`,
   },
   box: {
+    tool: 'Box',
+    solid: 'block',
+    path: (path, { w, d, h = 0 }, at) => {
+      const turned = new Path2D();
+      turned.rect(-w / 2, -d / 2, w, d);
+      path.addPath(turned, new DOMMatrix().translateSelf(at.x, at.y).rotateSelf(-h));
+    },
+    outline: corners,
+    closed: true,
     words: (box) => `Box ${box.w} × ${box.d} at ${box.x}, ${box.y}`,
     fields: [...AT, number('Width', 'w'), number('Depth', 'd'), HEADING],
     between: (a, b) => ({ kind: 'box', x: cm((a[0] + b[0]) / 2), y: cm((a[1] + b[1]) / 2), w: cm(Math.abs(a[0] - b[0])), d: cm(Math.abs(a[1] - b[1])), h: 0 }),
     move: moved,
     turn: turned,
-    handles: (box, gap) => [...[[1, 1], [1, -1], [-1, -1], [-1, 1]].map(([a, b]) => out(box, [(a * box.w) / 2, (b * box.d) / 2])), handleAhead(box, [0, box.d / 2 + gap])],
+    handles: (box, gap) => [...corners(box), handleAhead(box, [0, box.d / 2 + gap])],
     take: (box, i, place) => {
       if (i === 4) return { ...box, h: degrees([box.x, box.y], place) };
       // The corner across stays where it is.
@@ -87,6 +117,9 @@ export const KINDS = {
     fact: (box) => `box(${[box.x, box.y, box.w, box.d, ...(box.h ? [box.h] : [])].join(', ')})`,
   },
   circle: {
+    tool: 'Circle',
+    solid: 'block',
+    path: (path, { r }, at) => path.arc(at.x, at.y, r, 0, 7),
     words: (circle) => `Circle of radius ${circle.r} at ${circle.x}, ${circle.y}`,
     fields: [...AT, number('Radius', 'r')],
     between: (a, b) => ({ kind: 'circle', x: a[0], y: a[1], r: Math.max(1, Math.round(far(a, b))) }),
@@ -98,6 +131,15 @@ export const KINDS = {
     fact: (circle) => `circle(${[circle.x, circle.y, circle.r].join(', ')})`,
   },
   line: {
+    tool: 'Line',
+    hint: 'Click place by place; click the last one twice, or Enter. Or drag.',
+    lay: (c, line, picture) => {
+      c.beginPath();
+      along(c, line.points);
+      c.strokeStyle = picture.tone(line.color);
+      c.lineWidth = line.width;
+      c.stroke();
+    },
     words: (line) => `${capital(named(line.color))} line, ${line.points.length} places`,
     fields: [number('Width', 'width'), color, places],
     between: (a, b) => ({ kind: 'line', color: COLORS.get('black'), width: 2, points: [a, b] }),
@@ -105,6 +147,14 @@ export const KINDS = {
     fact: (line) => `line(${shade(line.color)}, ${line.width}, ${list(line.points)})`,
   },
   patch: {
+    tool: 'Patch',
+    closed: true,
+    lay: (c, patch, picture) => {
+      c.beginPath();
+      along(c, patch.points, true);
+      c.fillStyle = picture.tone(patch.color);
+      c.fill();
+    },
     words: (patch) => `${capital(named(patch.color))} patch, ${patch.points.length} corners`,
     fields: [color, places],
     between: (a, b) => ({ kind: 'patch', color: COLORS.get('red'), points: [a, [b[0], a[1]], b, [a[0], b[1]]] }),
@@ -112,6 +162,34 @@ export const KINDS = {
     fact: (patch) => `patch(${shade(patch.color)}, ${list(patch.points)})`,
   },
   lamp: {
+    tool: 'Lamp',
+    hint: 'Click where it is.',
+    click: true,
+    paint: (c, lamp, at, picture) => {
+      const { dark, dot, model, paint } = picture;
+      const power = lamp.port ? model.frame.beams?.find((beam) => beam.id === lamp.id)?.power ?? 0 : 1;
+      const reach = Math.max(24 * dot, Math.min(90, 8 * Math.sqrt(lamp.intensity)));
+      if (power > 0.01) {
+        const glow = c.createRadialGradient(at.x, at.y, 0, at.x, at.y, reach);
+        const strength = (dark ? 0.5 : 0.75) * power;
+        glow.addColorStop(0, `rgb(255 200 40 / ${strength})`);
+        glow.addColorStop(0.4, `rgb(255 205 60 / ${strength * 0.3})`);
+        glow.addColorStop(1, 'rgb(255 210 80 / 0)');
+        c.fillStyle = glow;
+        c.beginPath();
+        c.arc(at.x, at.y, reach, 0, 7);
+        c.fill();
+      }
+      const r = Math.max(2.2, 6 * dot);
+      c.beginPath();
+      c.arc(at.x, at.y, r, 0, 7);
+      c.fillStyle = power > 0.01 ? '#fff3c4' : paint.off;
+      c.fill();
+      c.lineWidth = 1.5 * dot;
+      c.strokeStyle = power > 0.01 ? '#b98900' : paint['block-edge'];
+      c.stroke();
+      if (lamp.port) picture.label(c, lamp.port, at.x, at.y - r - 9 * dot);
+    },
     words: (lamp) => `Lamp at ${lamp.x}, ${lamp.y}`,
     fields: [...AT, number('Intensity', 'intensity', '%')],
     between: (a, b) => ({ kind: 'lamp', x: b[0], y: b[1], intensity: 50 }),
@@ -119,6 +197,19 @@ export const KINDS = {
     fact: (lamp) => `lamp(${[lamp.x, lamp.y, lamp.intensity, ...(lamp.port ? [lamp.port] : [])].join(', ')})`,
   },
   beacon: {
+    paint: (c, beacon, at, picture) => {
+      const { dot, paint } = picture;
+      c.strokeStyle = paint.violet;
+      for (const [radius, alpha] of [[6, 1], [11, 0.5], [16, 0.25]]) {
+        c.globalAlpha = alpha;
+        c.lineWidth = 1.5 * dot;
+        c.beginPath();
+        c.arc(at.x, at.y, radius * dot, 0, 7);
+        c.stroke();
+      }
+      c.globalAlpha = 1;
+      picture.label(c, String(beacon.channel), at.x, at.y, paint.violet, 700);
+    },
     words: (beacon) => `Beacon ${beacon.channel} at ${beacon.x}, ${beacon.y}`,
     fields: [...AT, number('Channel', 'channel', '')],
     ...placed,

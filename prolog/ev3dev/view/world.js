@@ -3,6 +3,7 @@
 
 import { $, attribute, el, num, text, toggle } from './dom.js';
 import { Picture, TURN, between } from './picture.js';
+import { KINDS, along } from './things.js';
 
 export const LAYERS = [
   ['floor', 'Centimeter grid'], ['trail', 'Trail'], ['believed', 'Believed pose'],
@@ -128,7 +129,7 @@ export class World extends Picture {
     const { frame, world } = this.model;
     const parts = this.model.until === undefined ? [] : [`As it was at ${num(this.model.time, 2)} s.`];
     if (world) {
-      const things = (world.items ?? []).filter((item) => ['wall', 'box', 'circle'].includes(item.kind)).length;
+      const things = (world.items ?? []).filter((item) => KINDS[item.kind].solid).length;
       const size = world.bounds ? `, ${num(world.bounds[2] - world.bounds[0])} by ${num(world.bounds[3] - world.bounds[1])} cm` : '';
       parts.push(`${this.model.name ? `World ${this.model.name}` : 'A world'}${size}, ${things} ${things === 1 ? 'obstacle' : 'obstacles'}.`);
     }
@@ -189,22 +190,23 @@ export class World extends Picture {
     if (near(frame.robot?.true, Math.max(this.reach(), GRAB * this.dot))) return { kind: 'robot' };
     const other = frame.others?.find((each) => this.covers(each, place));
     if (other) return { kind: 'other', name: other.name };
-    const item = [...(world?.items ?? [])].reverse().find((each) => ['box', 'circle', 'lamp', 'beacon'].includes(each.kind) && this.covers(each, place));
+    const item = [...(world?.items ?? [])].reverse().find((each) => each.x !== undefined && this.covers(each, place));
     return item ? { kind: 'item', item } : null;
   }
 
   /** Whether a thing is at a place; what is thin is so within a reach. */
   covers(item, [x, y], reach = 0) {
     const context = flat();
-    if (item.kind !== 'line' && item.kind !== 'patch') {
+    const { lay, closed } = KINDS[item.kind];
+    if (!lay) {
       context.lineWidth = 2 * reach;
       const path = this.shape(item);
       return context.isPointInPath(path, x, y) || (reach > 0 && context.isPointInStroke(path, x, y));
     }
     const path = new Path2D();
-    item.points.forEach(([px, py], i) => (i ? path.lineTo(px, py) : path.moveTo(px, py)));
+    along(path, item.points);
     context.lineWidth = Math.max(item.width ?? 0, 2 * reach);
-    return item.kind === 'patch' ? context.isPointInPath(path, x, y) : context.isPointInStroke(path, x, y);
+    return closed ? context.isPointInPath(path, x, y) : context.isPointInStroke(path, x, y);
   }
 
   down(event) {

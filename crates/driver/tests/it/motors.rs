@@ -111,8 +111,9 @@ fn a_motor_that_cannot_start_stops_those_that_did() {
     let brick = Brick::new(&["outB", "outC"]);
     brick.world().motor("outC").refuses.push(("command", Errno::IO));
     let devices = brick.devices();
-    let error =
-        run_forever(&devices, &[run("outB", 50.0), run("outC", 50.0)], &mut || false).err().unwrap();
+    let error = run_forever(&devices, &[run("outB", 50.0), run("outC", 50.0)], &mut || false)
+        .err()
+        .unwrap();
     assert_eq!(error.errno(), Some(Errno::IO));
     assert!(brick.world().motor("outB").is_braking());
 }

@@ -1,8 +1,7 @@
 //! The world as a file of facts.
 
 use crate::machine::Machine;
-use crate::world::Item;
-use ev3_motion::{Bounds, Point, Pose};
+use ev3_motion::{Bounds, Pose};
 
 impl Machine {
     /// The world as a file of facts. It starts where the robot is now.
@@ -22,25 +21,7 @@ impl Machine {
             let name = name.replace('\\', "\\\\").replace('\'', "\\'");
             facts.push(format!("start('{name}', {x}, {y}, {heading})"));
         }
-        facts.extend(scene.items().iter().map(|(_, item)| fact(item)));
+        facts.extend(scene.items().iter().map(|(_, item)| item.fact()));
         facts.join(".\n") + ".\n"
-    }
-}
-
-/// An item as a fact that can be read back.
-fn fact(item: &Item) -> String {
-    let list = |points: &[Point]| {
-        // A minus before a number needs a space before it.
-        let place = |[x, y]: &Point| {
-            if y.is_sign_negative() { format!("{x} - {y}") } else { format!("{x}-{y}") }
-        };
-        points.iter().map(place).collect::<Vec<_>>().join(", ")
-    };
-    match item {
-        Item::Patch { corners, color } => format!("patch('{color}', [{}])", list(corners)),
-        Item::Line { points, width, color } => {
-            format!("line('{color}', {width}, [{}])", list(points))
-        }
-        item => item.to_string(),
     }
 }

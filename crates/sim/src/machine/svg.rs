@@ -1,30 +1,28 @@
 //! A picture of the world, the way of the robot, and the robot.
 
 use crate::machine::Machine;
-use crate::world::{Hull, Item};
+use crate::world::{Hull, Item, Shape};
 use ev3_motion::{Bounds, Pose, Svg, points};
 
 /// Room around everything, in cm.
 const MARGIN: f64 = 10.0;
 
 fn include_item(frame: &mut Bounds, item: &Item) {
-    match item {
-        Item::Wall { from, to, thickness } => {
-            frame.include(*from, *thickness);
-            frame.include(*to, *thickness);
+    match item.shape() {
+        Shape::Bar { from, to, thickness } => {
+            frame.include(from, thickness);
+            frame.include(to, thickness);
         }
-        Item::Box { pose, width, depth } => {
-            frame.include(pose.point(), libm::hypot(*width, *depth) / 2.0);
+        Shape::Box { pose, width, depth } => {
+            frame.include(pose.point(), libm::hypot(width, depth) / 2.0);
         }
-        Item::Circle { center, radius } => frame.include(*center, *radius),
-        Item::Patch { corners: points, .. } | Item::Line { points, .. } => {
+        Shape::Disc { center, radius } => frame.include(center, radius),
+        Shape::Area { corners: points, .. } | Shape::Band { points, .. } => {
             for point in points {
                 frame.include(*point, 1.0);
             }
         }
-        Item::Lamp { at, .. } | Item::Bulb { at, .. } | Item::Beacon { at, .. } => {
-            frame.include(*at, 4.0);
-        }
+        Shape::Mark { at, .. } => frame.include(at, 4.0),
     }
 }
 
@@ -75,36 +73,31 @@ impl Machine {
 
 fn draw_item(svg: &mut Svg, id: u32, item: &Item) {
     let name = &format!(" id=\"item{id}\"");
-    match item {
-        Item::Wall { from, to, thickness } => {
+    match item.shape() {
+        Shape::Bar { from, to, thickness } => {
             let style = &format!("stroke=\"#444\" stroke-width=\"{thickness:.2}\"");
-            svg.line(name, [*from, *to], style);
+            svg.line(name, [from, to], style);
         }
-        Item::Box { pose, width, depth } => {
-            let style = &format!("fill=\"#987\" {}", placed(*pose));
-            svg.rectangle(name, [-width / 2.0, -depth / 2.0], [*width, *depth], style);
+        Shape::Box { pose, width, depth } => {
+            let style = &format!("fill=\"#987\" {}", placed(pose));
+            svg.rectangle(name, [-width / 2.0, -depth / 2.0], [width, depth], style);
         }
-        Item::Circle { center, radius } => {
-            svg.circle(name, *center, &format!("{radius:.2}"), "fill=\"#987\"");
+        Shape::Disc { center, radius } => {
+            svg.circle(name, center, &format!("{radius:.2}"), "fill=\"#987\"");
         }
-        Item::Patch { corners, color } => {
+        Shape::Area { corners, color } => {
             let corners = points(corners.iter().copied());
             svg.add(format_args!("<polygon{name} points=\"{corners}\" fill=\"{color}\"/>"));
         }
-        Item::Line { points: line, width, color } => svg.add(format_args!(
+        Shape::Band { points: line, width, color } => svg.add(format_args!(
             "<polyline{name} points=\"{}\" fill=\"none\" stroke=\"{color}\" \
              stroke-width=\"{width:.2}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"/>",
             points(line.iter().copied())
         )),
-        Item::Lamp { at, .. } | Item::Bulb { at, .. } => {
-            let name = format!("{name} class=\"lamp\"");
-            let style = "fill=\"#fd0\" stroke=\"#a80\" stroke-width=\"0.5\"";
-            svg.circle(&name, *at, "3", style);
-        }
-        Item::Beacon { at, channel } => {
-            let name = format!("{name} class=\"beacon channel{channel}\"");
-            let style = "fill=\"#c3c\" stroke=\"#606\" stroke-width=\"0.5\"";
-            svg.circle(&name, *at, "2", style);
+        Shape::Mark { at, class, radius, fill, stroke } => {
+            let name = format!("{name} class=\"{class}\"");
+            let style = &format!("fill=\"{fill}\" stroke=\"{stroke}\" stroke-width=\"0.5\"");
+            svg.circle(&name, at, &radius.to_string(), style);
         }
     }
 }

@@ -1,10 +1,12 @@
-//! What stands and lies in a world, as plain data.
+//! What stands and lies in a world, as plain data. All that the simulator knows about a kind of
+//! thing is in this file: its form as a fact, its variant, what is possible, and its shape.
 
 use ev3_motion::{OUT_OF_RANGE, Point, Pose, is_in_range};
 use std::fmt;
 
 use crate::brick::port::Port;
 use crate::world::color::Color;
+use crate::world::form::{Form, Kind, Value};
 
 /// Names an item of a world. Bounds are item 0, the items of the world's spec follow in order,
 /// and what is added later gets the next number; numbers are not used again.
@@ -83,7 +85,139 @@ pub enum Item {
     },
 }
 
+/// The things that a world may have.
+pub(crate) const THINGS: &[Form] = {
+    use Kind::{Channel, Color, Number, Places, Port};
+    const X: (&str, Kind) = ("X", Number);
+    const Y: (&str, Kind) = ("Y", Number);
+    const WALL: &[(&str, Kind)] =
+        &[("X1", Number), ("Y1", Number), ("X2", Number), ("Y2", Number), ("Thickness", Number)];
+    &[
+        Form::with_default("wall", WALL),
+        Form::with_default(
+            "box",
+            &[X, Y, ("Width", Number), ("Depth", Number), ("Heading", Number)],
+        ),
+        Form::new("circle", &[X, Y, ("Radius", Number)]),
+        Form::new("patch", &[("Color", Color), ("Corners", Places)]),
+        Form::new("line", &[("Color", Color), ("Width", Number), ("Places", Places)]),
+        Form::with_default("lamp", &[X, Y, ("Intensity", Number), ("Port", Port)]),
+        Form::new("beacon", &[X, Y, ("Channel", Channel)]),
+    ]
+};
+
+/// What a thing looks like from above. The first three are solid: they stop robots, sound and
+/// light.
+#[derive(Clone, Debug)]
+#[expect(missing_docs, reason = "named as in `Item`")]
+pub enum Shape<'a> {
+    Bar { from: Point, to: Point, thickness: f64 },
+    Box { pose: Pose, width: f64, depth: f64 },
+    Disc { center: Point, radius: f64 },
+    Area { corners: &'a [Point], color: Color },
+    Band { points: &'a [Point], width: f64, color: Color },
+    Mark { at: Point, class: String, radius: f64, fill: &'static str, stroke: &'static str },
+}
+
 impl Item {
+    /// The thing of a fact with this name. `None` if its arguments are others than its form says.
+    pub(crate) fn of(name: &str, arguments: &[Value]) -> Option<Item> {
+        use Value::{Channel, Color, Number, Places, Port};
+        Some(match (name, arguments) {
+            ("wall", [Number(x1), Number(y1), Number(x2), Number(y2)]) => {
+                Item::wall([*x1, *y1], [*x2, *y2])
+            }
+            ("wall", [Number(x1), Number(y1), Number(x2), Number(y2), Number(thickness)]) => {
+                Item::Wall { from: [*x1, *y1], to: [*x2, *y2], thickness: *thickness }
+            }
+            ("box", [Number(x), Number(y), Number(width), Number(depth)]) => {
+                Item::Box { pose: Pose::new(*x, *y, 0.0), width: *width, depth: *depth }
+            }
+            ("box", [Number(x), Number(y), Number(width), Number(depth), Number(heading)]) => {
+                Item::Box { pose: Pose::new(*x, *y, *heading), width: *width, depth: *depth }
+            }
+            ("circle", [Number(x), Number(y), Number(radius)]) => {
+                Item::Circle { center: [*x, *y], radius: *radius }
+            }
+            ("patch", [Color(color), Places(corners)]) => {
+                Item::Patch { corners: corners.clone(), color: *color }
+            }
+            ("line", [Color(color), Number(width), Places(points)]) => {
+                Item::Line { points: points.clone(), width: *width, color: *color }
+            }
+            ("lamp", [Number(x), Number(y), Number(intensity)]) => {
+                Item::Lamp { at: [*x, *y], intensity: *intensity }
+            }
+            ("lamp", [Number(x), Number(y), Number(intensity), Port(port)]) => {
+                Item::Bulb { at: [*x, *y], intensity: *intensity, port: *port }
+            }
+            ("beacon", [Number(x), Number(y), Channel(channel)]) => {
+                Item::Beacon { at: [*x, *y], channel: *channel }
+            }
+            _ => return None,
+        })
+    }
+
+    /// The name of its fact, and the arguments under the names that pages have for them.
+    pub fn members(&self) -> (&'static str, Vec<(&'static str, Value)>) {
+        use Value::{Channel, Color, Number, Place, Places, Port};
+        let place = |[x, y]: Point| [("x", Number(x)), ("y", Number(y))];
+        let with = |at: Point, others: Vec<_>| place(at).into_iter().chain(others).collect();
+        match self {
+            Item::Wall { from, to, thickness } => (
+                "wall",
+                vec![("from", Place(*from)), ("to", Place(*to)), ("thickness", Number(*thickness))],
+            ),
+            Item::Box { pose: Pose { x, y, heading }, width, depth } => {
+                let others = [("w", *width), ("d", *depth), ("h", *heading)];
+                let others = others.map(|(name, number)| (name, Number(number)));
+                ("box", with([*x, *y], others.to_vec()))
+            }
+            Item::Circle { center, radius } => {
+                ("circle", with(*center, vec![("r", Number(*radius))]))
+            }
+            Item::Patch { corners, color } => {
+                ("patch", vec![("color", Color(*color)), ("points", Places(corners.clone()))])
+            }
+            Item::Line { points, width, color } => (
+                "line",
+                vec![
+                    ("color", Color(*color)),
+                    ("width", Number(*width)),
+                    ("points", Places(points.clone())),
+                ],
+            ),
+            Item::Lamp { at, intensity } => {
+                ("lamp", with(*at, vec![("intensity", Number(*intensity))]))
+            }
+            Item::Bulb { at, intensity, port } => {
+                ("lamp", with(*at, vec![("intensity", Number(*intensity)), ("port", Port(*port))]))
+            }
+            Item::Beacon { at, channel } => {
+                ("beacon", with(*at, vec![("channel", Channel(*channel))]))
+            }
+        }
+    }
+
+    /// What it looks like from above.
+    pub fn shape(&self) -> Shape<'_> {
+        match *self {
+            Item::Wall { from, to, thickness } => Shape::Bar { from, to, thickness },
+            Item::Box { pose, width, depth } => Shape::Box { pose, width, depth },
+            Item::Circle { center, radius } => Shape::Disc { center, radius },
+            Item::Patch { ref corners, color } => Shape::Area { corners, color },
+            Item::Line { ref points, width, color } => Shape::Band { points, width, color },
+            Item::Lamp { at, .. } | Item::Bulb { at, .. } => {
+                let class = "lamp".to_owned();
+                Shape::Mark { at, class, radius: 3.0, fill: "#fd0", stroke: "#a80" }
+            }
+            Item::Beacon { at, channel } => {
+                let class = format!("beacon channel{channel}");
+                Shape::Mark { at, class, radius: 2.0, fill: "#c3c", stroke: "#606" }
+            }
+        }
+    }
+
     /// A wall of the usual thickness, 1 cm.
     pub const fn wall(from: Point, to: Point) -> Item {
         Item::Wall { from, to, thickness: 1.0 }
@@ -107,19 +241,6 @@ impl Item {
             Item::Wall { .. } | Item::Patch { .. } | Item::Line { .. } => return None,
         }
         Some(item)
-    }
-
-    /// The word for it in error messages.
-    pub fn kind(&self) -> &'static str {
-        match self {
-            Item::Wall { .. } => "wall",
-            Item::Box { .. } => "box",
-            Item::Circle { .. } => "circle",
-            Item::Patch { .. } => "patch",
-            Item::Line { .. } => "line",
-            Item::Lamp { .. } | Item::Bulb { .. } => "lamp",
-            Item::Beacon { .. } => "beacon",
-        }
     }
 
     /// Checks the numbers.
@@ -168,40 +289,24 @@ impl Item {
             None => Ok(()),
         }
     }
+
+    /// The fact, where each argument is written in a way.
+    fn written(&self, way: impl Fn(&Value) -> String) -> String {
+        let (name, members) = self.members();
+        let arguments: Vec<_> = members.iter().map(|(_, value)| way(value)).collect();
+        format!("{name}({})", arguments.join(", "))
+    }
+
+    /// The fact that can be read back.
+    pub(crate) fn fact(&self) -> String {
+        self.written(Value::saved)
+    }
 }
 
 /// As the fact that describes it in a world file; of long lists of points only the first.
 impl fmt::Display for Item {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Item::Wall { from: [x1, y1], to: [x2, y2], thickness } => {
-                write!(f, "wall({x1}, {y1}, {x2}, {y2}, {thickness})")
-            }
-            Item::Box { pose: Pose { x, y, heading }, width, depth } => {
-                write!(f, "box({x}, {y}, {width}, {depth}, {heading})")
-            }
-            Item::Circle { center: [x, y], radius } => write!(f, "circle({x}, {y}, {radius})"),
-            Item::Patch { corners, color } => write!(f, "patch({color}, {})", Points(corners)),
-            Item::Line { points, width, color } => {
-                write!(f, "line({color}, {width}, {})", Points(points))
-            }
-            Item::Lamp { at: [x, y], intensity } => write!(f, "lamp({x}, {y}, {intensity})"),
-            Item::Bulb { at: [x, y], intensity, port } => {
-                write!(f, "lamp({x}, {y}, {intensity}, {port})")
-            }
-            Item::Beacon { at: [x, y], channel } => write!(f, "beacon({x}, {y}, {channel})"),
-        }
-    }
-}
-
-struct Points<'a>(&'a [Point]);
-
-impl fmt::Display for Points<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [[x, y], rest @ ..] = self.0 else { return f.write_str("[]") };
-        let minus = if y.is_sign_negative() { "- " } else { "-" };
-        let more = if rest.is_empty() { "" } else { "|..." };
-        write!(f, "[{x}{minus}{y}{more}]")
+        f.write_str(&self.written(Value::to_string))
     }
 }
 

@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn walls_are_joined_and_the_start_is_found() {
         let world = WorldSpec::from_map("#####\n#.>.#\n#.L.#\n#####\n", 20.0).unwrap();
-        let boxes = world.items.iter().filter(|item| item.kind() == "box").count();
+        let boxes = world.items.iter().filter(|item| matches!(item, Item::Box { .. })).count();
         assert_eq!(boxes, 4);
         assert_eq!(world.start, Pose::new(50.0, 50.0, 90.0));
         assert!(world.items.contains(&Item::Lamp { at: [50.0, 30.0], intensity: LAMP_INTENSITY }));

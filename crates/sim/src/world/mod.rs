@@ -2,6 +2,7 @@
 //! robots, sound and light ([`scene`], [`obstacle`]).
 
 pub(crate) mod color;
+pub(crate) mod form;
 mod hull;
 mod item;
 mod map;
@@ -10,6 +11,7 @@ pub(crate) mod scene;
 mod spec;
 
 pub use hull::Hull;
-pub use item::{Item, ItemId, Part, SpecError};
+pub(crate) use item::THINGS;
+pub use item::{Item, ItemId, Part, Shape, SpecError};
 pub use map::{Cell, Drawing, Drawn};
 pub use spec::{WorldSpec, check_bounds};

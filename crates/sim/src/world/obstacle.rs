@@ -6,7 +6,7 @@ use parry2d_f64::query::{self, PointQuery, Ray, RayCast};
 use parry2d_f64::shape::{Ball, Cuboid, Segment, Shape};
 
 use crate::world::Hull;
-use crate::world::{Item, ItemId};
+use crate::world::{Item, ItemId, Shape as Outline};
 
 /// How thick the walls of the bounds are.
 const BOUND_THICKNESS: f64 = 10.0;
@@ -49,28 +49,24 @@ impl Contact {
 impl Obstacle {
     /// The solid form of an item, if it has one.
     pub(crate) fn new(id: ItemId, item: &Item) -> Option<Obstacle> {
-        match *item {
-            Item::Wall { from: [x1, y1], to: [x2, y2], thickness } => {
+        match item.shape() {
+            Outline::Bar { from: [x1, y1], to: [x2, y2], thickness } => {
                 let way = Vec2::new(x2 - x1, y2 - y1);
                 let long = length(way);
                 let middle = Vec2::new(f64::midpoint(x1, x2), f64::midpoint(y1, y2));
                 let frame = frame(middle, way.x / long, way.y / long);
                 Some(Obstacle::cuboid(id, frame, long / 2.0, thickness / 2.0))
             }
-            Item::Box { pose, width, depth } => {
+            Outline::Box { pose, width, depth } => {
                 Some(Obstacle::cuboid(id, pose.frame(), width / 2.0, depth / 2.0))
             }
-            Item::Circle { center: [x, y], radius } => Some(Obstacle {
+            Outline::Disc { center: [x, y], radius } => Some(Obstacle {
                 id,
                 solid: Solid::Ball(Ball::new(radius)),
                 frame: frame(Vec2::new(x, y), 1.0, 0.0),
                 reach: radius,
             }),
-            Item::Patch { .. }
-            | Item::Line { .. }
-            | Item::Lamp { .. }
-            | Item::Bulb { .. }
-            | Item::Beacon { .. } => None,
+            Outline::Area { .. } | Outline::Band { .. } | Outline::Mark { .. } => None,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Ground truth: items, collisions, snapshots, trace, picture.
 
 use crate::robots::{default_robot, wheels, with_axle};
-use ev3_sim::facts::{Fact, culprit};
+use ev3_sim::facts::{Fact, Form, Kind, Subject, Value, culprit};
 use ev3_sim::{
     Action, Bounds, Drawing, Hull, Item, ItemId, Machine, MotorMount, Options, Port, Pose,
     RobotSpec, WorldSpec,
@@ -116,6 +116,58 @@ fn errors_are_put_to_the_fact_that_is_to_blame() {
     let error = RobotSpec::from_facts(&facts[..2]).unwrap_err();
     assert_eq!(error.to_string(), "robot has no left_wheel, no right_wheel, no hull, no mass");
     assert_eq!(culprit(&facts, &error), None);
+}
+
+/// An argument of each kind; numbers count up, so that a wall has a length and a box a size.
+fn argument(place: u8, kind: Kind) -> Value {
+    match kind {
+        Kind::Number => Value::Number((place + 1).into()),
+        Kind::Channel => Value::Channel(2),
+        Kind::Color => Value::Color(ev3_sim::Color::BLACK),
+        Kind::Port => Value::Port(Port::OutA),
+        Kind::Text => Value::Text("anna".to_owned()),
+        Kind::Places => Value::Places(vec![[0.0, 0.0], [9.0, 0.0], [9.0, -9.0]]),
+        Kind::Rows => Value::Rows(vec!["#.".to_owned()]),
+        Kind::Hull => Value::Hull(Hull::Circle { radius: 1.0 }),
+        Kind::WheelOptions => Value::WheelOptions { inverted: true, slip: 0.1 },
+        Kind::MotorOptions => Value::MotorOptions(Some([-1.0, 1.0])),
+        Kind::EchoOptions => Value::EchoOptions(ev3_sim::Echo::default()),
+    }
+}
+
+/// The facts of a form, with fewer and with all arguments.
+fn facts(form: &'static Form) -> impl Iterator<Item = Fact> {
+    (form.least..=form.arguments.len()).map(move |count| {
+        let kinds = form.arguments[..count].iter().map(|(_, kind)| *kind);
+        let arguments: Vec<_> = (0..).zip(kinds).map(|(at, kind)| argument(at, kind)).collect();
+        Fact::of(form.name, &arguments).unwrap().unwrap_or_else(|| panic!("{form:?}"))
+    })
+}
+
+#[test]
+fn each_form_is_read_and_each_thing_is_saved_as_a_fact_of_its_form() {
+    for (form, is_thing) in Subject::World.forms().chain(Subject::Robot.forms()) {
+        for fact in facts(form) {
+            let Fact::Item(item) = fact else {
+                assert!(!is_thing, "{form:?}");
+                continue;
+            };
+            item.validate().unwrap();
+            let world = WorldSpec {
+                items: vec![item.clone()],
+                start: Pose::new(500.0, 500.0, 0.0),
+                ..WorldSpec::default()
+            };
+            let machine = Machine::new(&world, &default_robot(), Options::default()).unwrap();
+            let saved = machine.world_facts();
+            let fact = saved.lines().find(|line| line.starts_with(&format!("{}(", form.name)));
+            let place = |(_, value): &(&str, Value)| usize::from(matches!(value, Value::Place(_)));
+            let (_, members) = item.members();
+            let count = members.len() + members.iter().map(place).sum::<usize>();
+            assert!(fact.is_some() && form.takes(count), "{item}: {saved}");
+            assert!(machine.svg().contains("id=\"item1\""), "{item}");
+        }
+    }
 }
 
 #[test]

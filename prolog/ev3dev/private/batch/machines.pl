@@ -30,7 +30,8 @@ A Redis server hands them out. It has
 A run belongs to the worker that has read it from the stream. Every second
 that worker claims its runs again; what nobody has claimed for five seconds is
 of a worker that has died, and goes to another one. So a run may be made
-twice, with the same score.
+twice, with the same score. xlisten_group/5 of library(redis_streams) does not
+renew claims while a run lasts, so a long run would go to a second worker.
 */
 
 %   Seconds, seconds, and the milliseconds of a claim.

@@ -144,8 +144,3 @@ allowed(localize_start,
           pose('X', 'Y', 'Heading', 'Sigma') ]).
 allowed(mounting_option,    [stops('Min', 'Max')]).
 allowed(wheel_option,       [inverted('Boolean'), slip('Share')]).
-allowed(world_item,         Items) :-
-    allowed(world_or_robot_fact, Items).
-allowed(world_or_robot_fact,
-        [ wall('X1', 'Y1', 'X2', 'Y2'), box('X', 'Y', 'Width', 'Length'),
-          circle('X', 'Y', 'Radius'), patch, line, lamp, beacon ]).

@@ -5,7 +5,8 @@
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../native/native',
-              [ sim_add_/2, sim_jam_/2, sim_key_/2, sim_place_/3,
+              [ sim_add_/2, sim_forms_/1, sim_jam_/2, sim_key_/2,
+                sim_place_/3,
                 sim_plug_/2, sim_remove_/1, view_keep_/2,
                 view_move_/4, view_pace_/1, view_pause_/1, view_pull_/1,
                 view_put_back_/2, view_source_/1, view_step_/2
@@ -89,8 +90,7 @@ form(add, [Kind0|Numbers0], add(Fact)) :-
     atom_string(Kind, Kind0),
     numbers_of(Numbers0, Numbers),
     length(Numbers, Count),
-    item(Kind, Counts),
-    memberchk(Count, Counts),
+    item(Kind, Count),
     Fact =.. [Kind|Numbers].
 form(move, [Id0, X0, Y0], move(Id, X, Y, same)) :-
     numbers_of([Id0, X0, Y0], [Id, X, Y]),
@@ -117,11 +117,15 @@ factor(x2, 2).
 factor(x10, 10).
 factor(max, 0).
 
-item(box, [4, 5]).
-item(circle, [3]).
-item(wall, [4, 5]).
-item(lamp, [3]).
-item(beacon, [3]).
+%   Count numbers describe a thing of this Kind.
+item(Kind, Count) :-
+    sim_forms_(Forms),
+    member(thing(Form), Forms),
+    functor(Form, Kind, Count),
+    Form =.. [_|Arguments],
+    \+ ( member(_:Type, Arguments),
+         \+ memberchk(Type, [number, channel]) ),
+    !.
 
 numbers_of([], []).
 numbers_of([Text|Texts], [Number|Numbers]) :-
