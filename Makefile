@@ -172,6 +172,7 @@ lint: build
 	tools/clocks.py
 	tools/papers.py --self-test
 	tools/papers.py
+	tools/natives.py
 	@if command -v cargo-deny >/dev/null; then $(CARGO) deny --locked check bans licenses sources; \
 	    else echo "skipped: cargo-deny is not installed, so deny.toml is not checked"; fi
 	$(SWIPL) -g main -t 'halt(1)' tests/support/lint.pl

@@ -59,7 +59,7 @@ natives! {
         result.unify(wrapped(Call::of(context, "heading_wrapped", 2).float(heading)?))
     }
 
-    /// `drive_(+Robot, +Course, +Options, -Reason)`: options is
+    /// drive_(+Robot, +Course, +Options, -Reason): options is
     /// `options(Percent, Acceleration, StopAction, UseGyro, Wait, Timeout)`. Who leaves
     /// the wait ends the motion.
     nondet fn "drive_"<Option<Slices<UntilEnded>>>(context, robot, course, options, reason) {

@@ -54,10 +54,12 @@ library_module(Module) :-
 
 %!  undocumented(-Module, -PI) is nondet.
 %
-%   An export without a PlDoc comment in the module that defines it.
+%   An export without a PlDoc comment in the module that defines it. Those of
+%   native predicates have theirs in src/, see tools/natives.py.
 
 undocumented(Module, Name/Arity) :-
     library_module(Module),
+    Module \== ev3dev_native,
     module_property(Module, exports(Exports)),
     member(Name/Arity, Exports),
     functor(Head, Name, Arity),
