@@ -209,7 +209,7 @@ async function opened() {
   if (shared) {
     const before = kept.text;
     show(shared);
-    if (before && before !== shared.text) notice('This program came by the link.', { act: ['Back to mine', () => show(kept)] });
+    if (before && before !== shared.text) notice('This program came with the link.', { act: ['Back to mine', () => show(kept)] });
   } else show(kept.text ? kept : { name: 'my_robot.pl', text: FIRST });
 }
 

@@ -100,7 +100,7 @@ export class Machine {
     this.answers();
     this.late = setTimeout(() => {
       this.beside = new Worker('patience.js');
-      this.beside.onmessage = () => this.fails('The program computed without a pause, and was ended. Prolog has begun again; your text is as it was.');
+      this.beside.onmessage = () => this.fails('The program computed without a pause, so it was ended. Prolog was started again; your text is unchanged.');
     }, PATIENCE);
   }
 

@@ -1211,7 +1211,7 @@ group('charts', ['sim_start(line)'], '', (it) => {
   });
 
   test('are as at first again, when that is wished, and after what nobody wrote', async () => {
-    await choose(0, 'All charts as at first');
+    await choose(0, 'Reset all charts');
     await shows(it.page, (s) => s.charts.length === 2 && s.charts[0].title === 'reflected light', 'the first charts');
     for (const odd of ['{', '{"charts":7}', '{"charts":[{"series":[null]}],"known":[]}', '[]']) {
       await it.page.evaluate((words) => localStorage.setItem('ev3dev-charts', words), odd);

@@ -171,7 +171,7 @@ export class Charts {
     }
     this.views.forEach((view, i) => { view.series = parts[i]; });
     this.empty.hidden = shown.length > 0;
-    text(this.empty, there.length ? 'All charts are hidden.' : names.length ? 'Add a chart by +.' : 'No samples yet. They begin when time passes.');
+    text(this.empty, there.length ? 'All charts are hidden.' : names.length ? 'Add a chart with +.' : 'No samples yet. They begin when time passes.');
   }
 
   /** Each series keeps its color for as long as it is shown, and no other has it. */
@@ -268,7 +268,7 @@ export class Charts {
       }, { class: 'check', role: 'checkbox', 'aria-checked': String(chart.series.includes(name)) })),
       ends('Hide this chart', () => this.edit(() => { chart.hidden = true; })),
       ends('Remove this chart', () => this.edit((charts) => charts.splice(charts.indexOf(chart), 1))),
-      ends('All charts as at first', () => {
+      ends('Reset all charts', () => {
         this.own = this.automated = null;
         keep(KEPT, null);
         this.arrange();
@@ -396,7 +396,7 @@ export class Charts {
     box.addEventListener('blur', () => {
       this.keyed = false;
       this.point(null);
-      attribute(box, 'aria-label', 'Charts; arrow keys read off');
+      attribute(box, 'aria-label', 'Charts; arrow keys read values');
     });
   }
 

@@ -31,7 +31,7 @@ export class Editor {
     };
     const sign = (name, words, act) => button(icon(name), act, { class: 'tool', title: words, 'aria-label': words });
     this.undoing = sign('undo', 'Undo (Ctrl Z)', () => this.undo());
-    this.redoing = sign('redo', 'Do it again (Ctrl Y)', () => this.redo());
+    this.redoing = sign('redo', 'Redo (Ctrl Y)', () => this.redo());
     this.tools = new Map(TOOLS.map(([kind, words]) => [kind, button(words, (event) => this.pick(kind, event.detail === 0), { 'aria-pressed': 'false', title: `Draw: ${words.toLowerCase()}` })]));
     this.hint = el('p', { class: 'hint-text', role: 'status' });
     this.fields = el('form', { class: 'fields' });
@@ -50,8 +50,8 @@ export class Editor {
       this.hint, this.fields, this.list, this.text,
       el('div', { class: 'files' },
         el('label', { for: 'edit-name' }, 'Name'), this.name,
-        button('Start', () => this.begin(), { class: 'tool text main', title: 'Start this world: the robot stands at its start, a program that runs is stopped' }),
-        this.using, this.asFacts, this.saving, button('Download', () => this.download()), button('Open', () => this.file.click(), { title: 'Open a file of facts: it is started' }), button('Empty', () => this.change(EMPTY), { title: 'Begin with nothing' }), this.file),
+        button('Start', () => this.begin(), { class: 'tool text main', title: 'Start this world: the robot goes to its start, and a running program is stopped' }),
+        this.using, this.asFacts, this.saving, button('Download', () => this.download()), button('Open', () => this.file.click(), { title: 'Open a file of facts and start it' }), button('Empty', () => this.change(EMPTY), { title: 'Begin with nothing' }), this.file),
     );
   }
 

@@ -15,7 +15,7 @@ import { Wire } from './wire.js';
 import { World } from './world.js';
 
 const PHASES = ['waiting', 'live', 'lost', 'refused'];
-const LOST = 'The program has ended, or the view was stopped. The page goes on when it is there again.';
+const LOST = 'The program has ended, or the view was stopped. The page goes on when it runs again.';
 const REFUSED = 'The view was started again. Open the address that it printed.';
 
 // The token is in the cookie now, and need not stay in the address.
@@ -158,7 +158,7 @@ function emptiness() {
   const { frame: now } = model;
   const known = now?.robot?.true || now?.robot?.believed;
   const words = now?.source === 'none' ? 'No robot and no simulation yet. The first use of a motor or sensor chooses one; the three dots begin a simulation.'
-    : !known && !model.world ? 'Where the robot is, is not known. set_robot/4 and pose/3 say it.' : '';
+    : !known && !model.world ? 'The place of the robot is unknown. set_robot/4 and pose/3 define it.' : '';
   $('world-empty').hidden = !words;
   text($('world-empty'), words);
 }

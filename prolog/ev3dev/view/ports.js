@@ -40,7 +40,7 @@ export class Ports {
     const empty = ports.length === 0;
     $('ports-empty').hidden = !empty;
     this.list.hidden = empty;
-    if (empty) text($('ports-empty'), 'No motor and no sensor is known yet.');
+    if (empty) text($('ports-empty'), 'No motor or sensor is known yet.');
   }
 
   row(port) {

@@ -136,12 +136,12 @@ export class World extends Picture {
     const said = (pose) => `x ${num(pose[0])}, y ${num(pose[1])}, heading ${num(pose[2])}`;
     const { true: truly, believed } = frame.robot ?? {};
     if (truly) parts.push(`The robot is at ${said(truly)}.`);
-    if (believed) parts.push(`It believes to be at ${said(believed.pose)}.`);
+    if (believed) parts.push(`It believes that it is at ${said(believed.pose)}.`);
     if (frame.robot?.hits) parts.push(`It ran into something ${frame.robot.hits === 1 ? 'once' : `${frame.robot.hits} times`}.`);
     for (const seen of frame.see ?? []) {
       if (seen.kind === 'cone') parts.push(seen.hit ? `${seen.port} sees something.` : `${seen.port} sees nothing.`);
     }
-    this.words = parts.join(' ') || 'Nothing is known of a robot.';
+    this.words = parts.join(' ') || 'No robot is known.';
     attribute(this.canvas, 'aria-label', this.words);
   }
 
