@@ -192,8 +192,6 @@ def compared(files, papers):
     facts = things | set(re.findall(form, files["crates/sim/src/facts.rs"]))
     yield "docs/worlds.md", "facts of worlds and robots", None, (
         facts, set(re.findall(r"`(\w+)\(", papers["docs/worlds.md"])))
-    yield "comment of sim.pl", "facts of worlds and robots", None, (
-        facts, set(re.findall(r"^  - (\w+)\(", files["prolog/ev3dev/sim.pl"], flags=re.M)))
     kinds = files["prolog/ev3dev/view/things.js"].partition("KINDS = {")[2]
     yield "KINDS of things.js", "things of item.rs", set(
         re.findall(r"^  (\w+): \{", kinds, flags=re.M)) - {"start", "around"}, things

@@ -54,27 +54,10 @@ wander :: true                      ~> go(40).
 A rule is `Name :: Guard ~> Action`. Options stand beside the name: `near,
 while(hungry), cooldown(2) :: light(L), L > 60 ~> S is L/2, go(S)`.
 
-  1. At each tick, every 20 ms, the rules are tried in order. The first one
-     whose guard holds is active; the first solution of the guard reaches the
-     action. While an action has not returned, only an earlier rule overrules
-     it, and its own guard is not checked.
-  2. The action of a rule that is overruled is interrupted, by an exception,
-     at its next wait or read of a sensor. Its move stops, and its own
-     clean-up runs. If the action catches everything, the exception comes
-     again at its next wait. (A loop around `catch(_, _, true)` cannot be
-     left.)
-  3. An action is called once when its rule becomes active. If it has returned
-     without having waited, as `go(S)`, it is called again when the variables
-     that it shares with the guard have other values: `go(S)` follows `S`.
-  4. When another rule becomes active, nothing is stopped first: motors that
-     the old action left running, and that the new action has not commanded,
-     are stopped at the new action's first wait, or when it returns.
-  5. A rule whose action has waited and ended does not apply until its guard
-     has been false once, unless the guard is `true`. An action that fails
-     prints a warning the first time, and counts as ended. If no rule is
-     active, the robot rests.
-  6. Guards must not wait or start a motor: that throws
-     permission_error(wait, guard, Name).
+Every 20 ms the first rule whose Guard holds is active, and its Action is
+called. While an action has not returned, only an earlier rule overrules it:
+then an exception interrupts the action at its next wait or read of a sensor.
+docs/reactive.md says exactly what a rule means.
 
 Options of a rule:
 
@@ -87,12 +70,6 @@ Options of a rule:
   - cooldown(+Seconds)
     The rule does not apply for this time after it was active. If its action
     has waited and ended, its guard must have been false, too.
-
-An action may be a list: `[A:1.5, B:2, C]` is A for 1.5 s, then B for 2 s,
-then C until another rule is active.
-
-An action may call behave/1: so a state machine is a rule whose action is
-again a list of rules.
 */
 
                  /*******************************
