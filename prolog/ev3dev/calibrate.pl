@@ -81,9 +81,7 @@ calibrate(What0, Module:Options, SetRobot) :-
     ;   domain_error(calibration, What)
     ).
 
-                /*******************************
-                *            WHEELS            *
-                *******************************/
+% ---------------- WHEELS
 
 wheels(Robot, Module, Options, SetRobot) :-
     Robot = robot(Left, Right, DL, DR, IL, IR, Axle, Offset),
@@ -127,9 +125,7 @@ arc_length(Chord, Half, Length) :-
     ;   Length is Chord * Half / sin(Half)
     ).
 
-                /*******************************
-                *             AXLE             *
-                *******************************/
+% ---------------- AXLE
 
 axle(Robot, Module, Options, SetRobot) :-
     Robot = robot(Left, Right, DL, DR, IL, IR, Axle, Offset),
@@ -167,9 +163,7 @@ turned(Angle, Speed, _, _, Turned) :-
 nearest_turn(Expected, Degrees, Angle) :-
     Angle is Degrees + 360 * round((Expected - Degrees) / 360.0).
 
-                /*******************************
-                *            MOVES             *
-                *******************************/
+% ---------------- MOVES
 
 %   Moves without the gyro.
 straight(Speed, Distance) :-

@@ -187,9 +187,7 @@ delete_folder(Folder) :-
            )),
     delete_directory(Folder).
 
-                /*******************************
-                *           THE UNITS          *
-                *******************************/
+% ---------------- THE UNITS
 
 units_compiled(Folder, [Loader|Units]) :-
     forall(( source_file(File), in_pack(File) ),

@@ -68,9 +68,7 @@ and write any file. library(ev3dev/device_table) prints all devices.
 @see http://www.ev3dev.org for each driver's attributes
 */
 
-                /*******************************
-                *           DEVICES            *
-                *******************************/
+% ---------------- DEVICES
 
 %!  tacho_motor(?Port) is nondet.
 %!  tacho_motor(?Port, ?Type) is nondet.
@@ -136,9 +134,7 @@ lego_sensor(Port, Type) :-
 lego_sensor(Port, Type, Path) :-
     device_('lego-sensor', Port, Type, Path).
 
-                /*******************************
-                *          ATTRIBUTES          *
-                *******************************/
+% ---------------- ATTRIBUTES
 
 %!  motor_attribute(?Port, +Attribute, ?Value) is nondet.
 %!  sensor_attribute(?Port, +Attribute, ?Value) is nondet.

@@ -243,9 +243,7 @@ event(Id, Kind) :-
     event_(Brick, Id, Term, _),
     functor(Term, Kind, _).
 
-                 /*******************************
-                 *            SERVE             *
-                 *******************************/
+% ---------------- SERVE
 
 :- multifile ev3dev_waits:serve_events/0.
 
@@ -450,9 +448,7 @@ ignore_failure(Id, Name, Action) :-
 prolog:message(ev3dev(event_failed(Id, Name))) -->
     [ 'The action of event ~p (~w) failed'-[Id, Name] ].
 
-                 /*******************************
-                 *            UNTIL             *
-                 *******************************/
+% ---------------- UNTIL
 
 %!  until(:Condition, :Goal) is semidet.
 %!  until(:Condition, :Goal, -Which) is semidet.
@@ -528,9 +524,7 @@ to_the_end(Goal) :-
         fail
     ).
 
-                 /*******************************
-                 *           BRANCHES           *
-                 *******************************/
+% ---------------- BRANCHES
 
 %!  both(:Goal1, :Goal2) is semidet.
 %!  race(:Goals, -Winner) is semidet.

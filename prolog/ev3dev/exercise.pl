@@ -123,9 +123,7 @@ Scores ask about the run that has ended: collisions/1 and what follows it
 here. All places are `X-Y` in cm.
 */
 
-                /*******************************
-                *            MARKS             *
-                *******************************/
+% ---------------- MARKS
 
 %!  exercise_mark(+Exercise, +Files, +Options, -Marks) is det.
 %
@@ -203,9 +201,7 @@ exercise_check(Exercise, Options) :-
     must_be_options(exercise_option, [seeds, jobs, enclosed], Options),
     check_solution(Exercise, Options).
 
-                /*******************************
-                *           MEASURES           *
-                *******************************/
+% ---------------- MEASURES
 
 %!  run_seed(-Seed) is semidet.
 %

@@ -337,9 +337,7 @@ golog_exog(M:Action) :-
     must_be(nonvar, Action),
     send_exogenous(M, Action).
 
-                /*******************************
-                *           OFFLINE            *
-                *******************************/
+% ---------------- OFFLINE
 
 %!  do(:Program, ?History) is nondet.
 %!  do(:Program, +History0, ?History) is nondet.
@@ -478,9 +476,7 @@ why_not(M:Action, Why) :-
     ),
     hindrance(Action, E, Why, S, X).
 
-                /*******************************
-                *        FOR DOMAINS           *
-                *******************************/
+% ---------------- FOR DOMAINS
 
 %!  domain(?Value, :Sort) is nondet.
 %!  rdomain(?Value, :Sort) is nondet.
@@ -603,9 +599,7 @@ must_have(M, Head) :-
 
 set_option(_, _).
 
-                /*******************************
-                *           LEGOLOG            *
-                *******************************/
+% ---------------- LEGOLOG
 
 %!  initializeRcx is det.
 %!  finalizeRcx is det.
@@ -650,9 +644,7 @@ receiveRcxActionNumber([]).
 
 checkOtherExog([]).
 
-                /*******************************
-                *        IMPORTING IT          *
-                *******************************/
+% ---------------- IMPORTING IT
 
 %   The modules that import this library: when it is loaded, the one that
 %   loads it; later ones when a clause of a domain is read in them.

@@ -331,9 +331,7 @@ event(Time, What, Command, Causes) :-
     shown(Command0, Command, First),
     all_causes(First, Cause, Called, Causes).
 
-                /*******************************
-                *            FILES             *
-                *******************************/
+% ---------------- FILES
 
 write_events(Events, Stream) :-
     (   member(command(_, robot(_, _), _, _), Events),
@@ -567,9 +565,7 @@ motor_command(tacho_motor(Word, SetPoints), 'tacho-motor', Word, SetPoints).
 motor_command(dc_motor(Word, SetPoints), 'dc-motor', Word, SetPoints).
 motor_command(servo_motor(Word, SetPoints), 'servo-motor', Word, SetPoints).
 
-                /*******************************
-                *            AGAIN             *
-                *******************************/
+% ---------------- AGAIN
 
 %   All motors are there.
 

@@ -156,9 +156,7 @@ no_names_of_fluents(Parts, theory(_, Predicates), Path) :-
     ;   true
     ).
 
-                /*******************************
-                *            FILES             *
-                *******************************/
+% ---------------- FILES
 
 read_define(File, What, Parts, Path) :-
     must_be(nonvar, File),
@@ -231,9 +229,7 @@ with_types([], _, []).
 with_types([Name|Names], Types, [Name-Types|Pairs]) :-
     with_types(Names, Types, Pairs).
 
-                /*******************************
-                *            CLAUSES           *
-                *******************************/
+% ---------------- CLAUSES
 
 domain_clause(Parts, Theory, Path, pddl_is(Object, Type)) :-
     object(':constants', Parts, Theory, Path, Object, Type).
@@ -317,9 +313,7 @@ goal_of([Goal|Goals], Body) :-
         goal_of(Goals, Rest)
     ).
 
-                /*******************************
-                *            ACTIONS           *
-                *******************************/
+% ---------------- ACTIONS
 
 %   action_clause(+Name, +Items, +Theory, +Path, -Clause) is nondet. A static
 %   condition comes as soon as its parameters are known.
@@ -437,9 +431,7 @@ both(P, Q, R) :-
         R = and(Rs)
     ).
 
-                /*******************************
-                *           CONDITIONS         *
-                *******************************/
+% ---------------- CONDITIONS
 
 %   condition(+Expression, +Bound, +Theory, +Path, -Condition) is det. Bound
 %   has a Prolog variable for each parameter.
@@ -559,9 +551,7 @@ init(Atom, T, Path, Kind, Fact) :-
         wrong(Path, Why)
     ).
 
-                /*******************************
-                *            WRITING           *
-                *******************************/
+% ---------------- WRITING
 
 %!  pddl_write(:File) is det.
 %

@@ -103,9 +103,7 @@ One that ends early for another reason, as a blocked wheel, fails. An
 exception stops it.
 */
 
-                 /*******************************
-                 *            ROBOT             *
-                 *******************************/
+% ---------------- ROBOT
 
 :- dynamic
     opened/3,                           % Brick, Alias, Ports
@@ -262,9 +260,7 @@ plnxt_event(nxt_timer(_)).
 prolog:message(ev3dev(plnxt_events(Ids))) -->
     [ 'Triggers and timers: ~p'-[Ids] ].
 
-                 /*******************************
-                 *            MOVES             *
-                 *******************************/
+% ---------------- MOVES
 
 %!  nxt_go(+Speed) is semidet.
 %!  nxt_stop is semidet.
@@ -326,9 +322,7 @@ nxt_rotate(Speed, Angle) :-
     turn(S, Angle, [reason(Reason)]),
     moved(Reason).
 
-                 /*******************************
-                 *       SENSORS, SOUNDS        *
-                 *******************************/
+% ---------------- SENSORS, SOUNDS
 
 %!  nxt_light(-Percent) is semidet.
 %!  nxt_ultrasonic(-Centimeters) is semidet.
@@ -465,9 +459,7 @@ switch_lamp(Action) :-
 nxt_play_tone(Hertz, Milliseconds) :-
     tone(Hertz, Milliseconds, [wait(false)]).
 
-                 /*******************************
-                 *       TRIGGERS, TIMERS       *
-                 *******************************/
+% ---------------- TRIGGERS, TIMERS
 
 %!  trigger_create(?Id, :Condition, :Action) is det.
 %!  trigger_create(?Id, :Condition, :Action, +Count) is det.

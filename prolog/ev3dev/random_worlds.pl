@@ -342,9 +342,7 @@ circle_radius(AX-AY, BX-BY, CX-CY, Radius) :-
               * sqrt((CX-BX)**2 + (CY-BY)**2)
               * sqrt((AX-CX)**2 + (AY-CY)**2) / (4*Area).
 
-                /*******************************
-                *            CHANCE            *
-                *******************************/
+% ---------------- CHANCE
 
 %   Prolog's own generator draws other numbers in another version. This is the
 %   one of Lehmer, Park and Miller, as minstd_rand of C++.
@@ -392,9 +390,7 @@ shuffled(List, Chance, [Member|Shuffled]) :-
 chosen(From-To, Chance, Number) :-
     whole(Chance, From, To, Number).
 
-                /*******************************
-                *           ARGUMENTS          *
-                *******************************/
+% ---------------- ARGUMENTS
 
 counts([], _, []).
 counts([Default|Defaults], Options, [From-To|Counts]) :-

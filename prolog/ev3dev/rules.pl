@@ -72,9 +72,7 @@ Options of a rule:
     has waited and ended, its guard must have been false, too.
 */
 
-                 /*******************************
-                 *            RULES             *
-                 *******************************/
+% ---------------- RULES
 
 :- multifile user:term_expansion/2.
 :- dynamic user:term_expansion/2.
@@ -217,9 +215,7 @@ shared([V|Vs], Others, Shared) :-
     ),
     shared(Vs, Others, Shared1).
 
-                 /*******************************
-                 *            BEHAVE            *
-                 *******************************/
+% ---------------- BEHAVE
 
 %!  behave(+Rules) is det.
 %!  behave(+Rules, +Options) is det.
@@ -494,9 +490,7 @@ failed(E, Name, Where, Behavior) :-
 prolog:message(ev3dev(rule_failed(Name))) -->
     [ 'The action of rule ~p failed'-[Name] ].
 
-                 /*******************************
-                 *           ACTIONS            *
-                 *******************************/
+% ---------------- ACTIONS
 
 %   No rule applies.
 none(Behavior) :-
@@ -706,9 +700,7 @@ next(Behavior, Next) :-
     ->  Next = []
     ).
 
-                 /*******************************
-                 *       STATE, MESSAGES        *
-                 *******************************/
+% ---------------- STATE, MESSAGES
 
 %!  become(+Rules).
 %

@@ -242,9 +242,7 @@ test(printing_the_history_is_a_step, Steps == [[]-[a]]) :-
 
 :- end_tests(golog_more).
 
-                /*******************************
-                *           EACH ONE           *
-                *******************************/
+% ---------------- EACH ONE
 
 %   trans_of(Program, Final, Steps): all steps that Program can take in the lab
 %   at the beginning, as Program1-History, and whether it may end there. [G],
@@ -384,9 +382,7 @@ test(each_construct_is_there, Missing == []) :-
 
 :- end_tests(golog_each).
 
-                /*******************************
-                *        LAWS FOR EACH         *
-                *******************************/
+% ---------------- LAWS FOR EACH
 
 without_part([]).
 without_part(?(_)).
@@ -595,9 +591,7 @@ part_of(E, Part) :-
 
 :- end_tests(golog_laws).
 
-                /*******************************
-                *   AGAINST THE AXIOMS         *
-                *******************************/
+% ---------------- AGAINST THE AXIOMS
 
 :- begin_tests(golog_axioms).
 

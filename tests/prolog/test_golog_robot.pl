@@ -145,9 +145,7 @@ user:cost(E) :-
     ;   true
     ).
 
-                /*******************************
-                *           THE ROBOT          *
-                *******************************/
+% ---------------- THE ROBOT
 
 %   A robot that goes, is interrupted by a key, and looks
 

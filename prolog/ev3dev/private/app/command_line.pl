@@ -91,9 +91,7 @@ number('a whole number', N, ( integer(N), N >= 0 )).
 number('a whole number below 65536', N, ( integer(N), N >= 0, N < 65536 )).
 number('virtual, realtime, or a factor', N, N > 0).
 
-                /*******************************
-                *           PARSING            *
-                *******************************/
+% ---------------- PARSING
 
 %!  command_line(+Arguments, -Command, -Files, -Options) is det.
 %
@@ -276,9 +274,7 @@ complain(Arguments, Format, Values) :-
     format(user_error, Format, Values),
     format(user_error, "~nSee: ~w~n", [Help]).
 
-                /*******************************
-                *             HELP             *
-                *******************************/
+% ---------------- HELP
 
 %!  is_help(+Arguments, -Command) is semidet.
 %

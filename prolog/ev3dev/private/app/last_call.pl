@@ -131,9 +131,7 @@ keeping(Goal) :-
         once(Goal),
         nb_setval(ev3dev_last_call, Number)).
 
-                /*******************************
-                *            NOTES             *
-                *******************************/
+% ---------------- NOTES
 
 %   In the module system, which comes after the expansions of the program.
 

@@ -332,9 +332,7 @@ stepped(Redis, Number, Now0, Now) :-
         Now = Now0
     ).
 
-                /*******************************
-                *            REDIS             *
-                *******************************/
+% ---------------- REDIS
 
 batch_key(Kind, Batch, Key) :-
     atomic_list_concat([ev3dev, Kind, Batch], :, Key).

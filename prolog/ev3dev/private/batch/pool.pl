@@ -23,9 +23,7 @@ its process dies; the workers that have nothing to do; the runs under way; and
 the results, done(Number, Seed, Score).
 */
 
-                /*******************************
-                *           WORKERS            *
-                *******************************/
+% ---------------- WORKERS
 
 %!  start_workers(+Number, -Pool) is det.
 %
@@ -109,9 +107,7 @@ hear(worker(_, _, Out), Answer) :-
     ;   term_string(Answer, Line)
     ).
 
-                /*******************************
-                *             RUNS             *
-                *******************************/
+% ---------------- RUNS
 
 %!  batch_step(+Limits, +State0, -State) is det.
 %

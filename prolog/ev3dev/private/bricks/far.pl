@@ -155,9 +155,7 @@ ended(Process, Hundredths, Status) :-
 close_all :-
     forall(far(Far, _, _), far_close(Far)).
 
-                /*******************************
-                *           RECEIVER           *
-                *******************************/
+% ---------------- RECEIVER
 
 receive(Far, Name, Out) :-
     call_cleanup(receive_frames(Out, ev3dev_far:hear(Far, Name, Out)),
@@ -194,9 +192,7 @@ given(Far, Number, Answer) :-
 give(Queue, Answer) :-
     catch(thread_send_message(Queue, answer(Answer)), error(_, _), true).
 
-                /*******************************
-                *            CALLS             *
-                *******************************/
+% ---------------- CALLS
 
 %!  is_lost(+Far) is semidet.
 %

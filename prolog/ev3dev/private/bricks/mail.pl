@@ -75,9 +75,7 @@ leave_mail :-
 
 :- initialization(at_halt(ev3dev_mail:leave_mail), now).
 
-                /*******************************
-                *            SENDING           *
-                *******************************/
+% ---------------- SENDING
 
 %!  send_mail(+To, +From, +Term) is semidet.
 %
@@ -113,9 +111,7 @@ added(HostPort, Entry, Tries) :-
     ;   throw(Error)
     ).
 
-                /*******************************
-                *           RECEIVING          *
-                *******************************/
+% ---------------- RECEIVING
 
 receiver(HostPort, Redis, Last0, Program) :-
     catch(received(Redis, Last0, Program, Last), Error, true),

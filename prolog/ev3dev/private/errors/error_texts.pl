@@ -183,9 +183,7 @@ all_same([], _).
 all_same([Term|Terms], Term) :-
     all_same(Terms, Term).
 
-                /*******************************
-                *     VARIABLES, NO VALUES     *
-                *******************************/
+% ---------------- VARIABLES, NO VALUES
 
 %!  no_value(?Variable, +Frame, -Text) is det.
 %

@@ -156,9 +156,7 @@ is_ours(Called) :-
     integer(Arity),
     is_public(_, Called).
 
-                /*******************************
-                *       MOTORS THAT RUN        *
-                *******************************/
+% ---------------- MOTORS THAT RUN
 
 %   After an abort or an error at the toplevel motors run on that the program
 %   has started and has not stopped: that is said then. A page, another thread
@@ -204,9 +202,7 @@ append_last([Port|Ports], Listed) :-
     append_last(Ports, Listed0),
     atomic_list_concat([Port, ', ', Listed0], Listed).
 
-                /*******************************
-                *        THE EXCEPTION         *
-                *******************************/
+% ---------------- THE EXCEPTION
 
 %   The hook changes the context of an error that nobody catches, as
 %   library(prolog_stack) does, whose clause comes after this one.

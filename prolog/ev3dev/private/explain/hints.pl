@@ -195,9 +195,7 @@ is_explained :-
 
 user:message_hook(debug_no_topic(ev3dev), warning, _).
 
-                /*******************************
-                *            CAUSES            *
-                *******************************/
+% ---------------- CAUSES
 
 %   Cause names the motor that is to blame.
 
@@ -401,9 +399,7 @@ nth_color(Name, Number) :-
     !,
     Number is Place - 1.
 
-                /*******************************
-                *       ABSENT DEVICES         *
-                *******************************/
+% ---------------- ABSENT DEVICES
 
 class_of('tacho-motor', motor).
 class_of('dc-motor', motor).

@@ -105,9 +105,7 @@ atom_of(F, E) :-
     F =.. Parts,
     findall(Name, ( member(Part, Parts), name_of(Part, Name) ), E).
 
-                /*******************************
-                *            ACTIONS           *
-                *******************************/
+% ---------------- ACTIONS
 
 action(A, M, action(Name, Condition, Effects)) :-
     ground_action(A, M, E, Effects0),

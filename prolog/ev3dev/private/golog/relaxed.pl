@@ -199,9 +199,7 @@ change(Literals, Changes, Numbers, change(Mask, Add, Delete)) :-
     bits_of(Adds, Numbers, Add),
     bits_of(Deletes, Numbers, Delete).
 
-                /*******************************
-                *         RELAXED PLANS        *
-                *******************************/
+% ---------------- RELAXED PLANS
 
 %   with_rules(+Ops, +Known, -Task): Task is
 %
@@ -421,9 +419,7 @@ reachable(Task, Ops0, Ops) :-
     \+ layers(Fired, Task, Counters, Reasons, 0),
     findall(Op, ( nth(Ops0, 1, Op, I), arg(I, Counters, 0) ), Ops).
 
-                /*******************************
-                *            SEARCH            *
-                *******************************/
+% ---------------- SEARCH
 
 %!  task_plan(+Task, +Shortest, +Effort, -Plan) is semidet.
 %

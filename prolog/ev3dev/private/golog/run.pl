@@ -118,9 +118,7 @@ is_over(r(_, agent(_, Robot, _, _), _, Deadline, _)) :-
     clock(Robot, Now),
     Now >= Deadline.
 
-                /*******************************
-                *            RECORD            *
-                *******************************/
+% ---------------- RECORD
 
 :- thread_local
     entry_record/2,                    % Count, Entry
@@ -199,9 +197,7 @@ situation_noted(Now) :-
     ;   Now = none
     ).
 
-                /*******************************
-                *             CYCLE            *
-                *******************************/
+% ---------------- CYCLE
 
 %   cycle(+State, +Steps, +Run, -Reason). A state is at(Program, Situation,
 %   News). News is `news` if an exogenous action has come since the last

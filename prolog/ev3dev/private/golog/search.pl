@@ -238,9 +238,7 @@ replanned(E, X) :-
 replanned_since(E) :-
     retract(replanned_(E)).
 
-                /*******************************
-                *         DEPTH FIRST          *
-                *******************************/
+% ---------------- DEPTH FIRST
 
 %   search_path(+Program, +Options, +Situation, -Path, +Context) is nondet.
 
@@ -382,9 +380,7 @@ told(Options, What) :-
     ;   true
     ).
 
-                /*******************************
-                *      CONDITIONAL PLANS       *
-                *******************************/
+% ---------------- CONDITIONAL PLANS
 
 %   conditional_plan(+Program, +Options, +Situation, -Plan, +Context) is
 %   nondet.
@@ -493,9 +489,7 @@ branches_planned([Test-Case|Cases], P, E, S0, Depth, [Test-Plan|Plans], X) :-
     planned_branch(P, E, S, Depth, Plan, X),
     branches_planned(Cases, P, E, S0, Depth, Plans, X).
 
-                /*******************************
-                *           ACHIEVE            *
-                *******************************/
+% ---------------- ACHIEVE
 
 %   achieve_step(+Goal, +Options, +Program0, +Situation0, -Program,
 %   -Situation, +Context) is nondet.

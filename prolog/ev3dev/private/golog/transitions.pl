@@ -46,9 +46,7 @@ solutions. search.pl adds the constructs that look ahead.
     step_construct/5,
     ends/3.
 
-                /*******************************
-                *             FINAL            *
-                *******************************/
+% ---------------- FINAL
 
 %!  is_final(+Program, +Situation, +Context) is semidet.
 %
@@ -141,9 +139,7 @@ ends(for(V, D, E), S, X) :-
     for_program(V, D, E, S, X, Es),
     is_final(Es, S, X).
 
-                /*******************************
-                *             TRANS            *
-                *******************************/
+% ---------------- TRANS
 
 %!  step(+Program0, +Situation0, -Program, -Situation, +Context) is nondet.
 %
@@ -661,9 +657,7 @@ atom_in(E, Inner) :-
         atom_in(Part, Inner)
     ).
 
-                /*******************************
-                *              RUN             *
-                *******************************/
+% ---------------- RUN
 
 %!  run(+Program, +Situation0, -Situation, +Length, +Context) is nondet.
 %

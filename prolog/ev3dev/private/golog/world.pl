@@ -35,9 +35,7 @@ the domain is about the robot, the queue of its exogenous actions, and the
 closure of the option `device`.
 */
 
-                /*******************************
-                *            QUEUES            *
-                *******************************/
+% ---------------- QUEUES
 
 :- dynamic
     queue/3,                            % Brick, Module, Queue
@@ -120,9 +118,7 @@ agent_ends(Module) :-
     ;   true
     ).
 
-                /*******************************
-                *      EXOGENOUS ACTIONS       *
-                *******************************/
+% ---------------- EXOGENOUS ACTIONS
 
 :- thread_local
     seen/2,                             % Module, Action
@@ -291,9 +287,7 @@ code_of_number(Number, Module, Action) :-
     Module:actionNum(Action, Number),
     !.
 
-                /*******************************
-                *          EXECUTION           *
-                *******************************/
+% ---------------- EXECUTION
 
 %!  executed(+Action, +History, :Watch, +Agent, -Outcome, -Value) is det.
 %

@@ -95,9 +95,7 @@ answer_first.
     predicate_/3,
     words_/4.
 
-                /*******************************
-                *           QUESTIONS          *
-                *******************************/
+% ---------------- QUESTIONS
 
 %!  asked(+Question) is semidet.
 %
@@ -159,9 +157,7 @@ later(Library, Later) :-
     ;   Later = 1
     ).
 
-                /*******************************
-                *            MATCHES           *
-                *******************************/
+% ---------------- MATCHES
 
 tokens(Query, Tokens) :-
     (   nonvar(Query),
@@ -308,9 +304,7 @@ paragraph([Line|Lines], Paragraph) :-
     ).
 paragraph([], []).
 
-                /*******************************
-                *           PRINTING           *
-                *******************************/
+% ---------------- PRINTING
 
 %   print_comments(+Pairs, +Library)
 %
@@ -421,9 +415,7 @@ shortened(Text, Room, Short) :-
         atom_concat(Begin, ' ...', Short)
     ).
 
-                /*******************************
-                *           READING            *
-                *******************************/
+% ---------------- READING
 
 read_comments :-
     predicate_(_, _, _),

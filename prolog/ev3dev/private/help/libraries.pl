@@ -94,9 +94,7 @@ pack_folder(Folder) :-
     file_directory_name(Room, Private),
     file_directory_name(Private, Folder).
 
-                /*******************************
-                *             HEADS            *
-                *******************************/
+% ---------------- HEADS
 
 %   offers(+File, -Predicates)
 %

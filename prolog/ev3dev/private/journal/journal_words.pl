@@ -208,9 +208,7 @@ angle(SetPoints, Port) -->
     ;   [ 'a position'-[] ]
     ).
 
-                /*******************************
-                *           COURSES            *
-                *******************************/
+% ---------------- COURSES
 
 course(legs(Legs, Backwards), options(Percent, _, _, _)) -->
     legs(Legs),
@@ -303,9 +301,7 @@ number_text(Number, Text) :-
     ;   Text = Rounded
     ).
 
-                /*******************************
-                *            CAUSES            *
-                *******************************/
+% ---------------- CAUSES
 
 reasons(Causes) -->
     (   { append(Before, [called(Called)], Causes) }

@@ -99,9 +99,7 @@ contents(File, Length-Hash) :-
     string_length(Text, Length),
     term_hash(Text, Hash).
 
-                /*******************************
-                *          THE INDEX           *
-                *******************************/
+% ---------------- THE INDEX
 
 %   Comments are collected from sources alone (library(pldoc)).
 

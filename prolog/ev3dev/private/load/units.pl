@@ -56,9 +56,7 @@ one_loaded([source(_, Source, _)|Sources]) :-
 use_sources :-
     retractall(usable(_, _, _, _)).
 
-                /*******************************
-                *           LOADING            *
-                *******************************/
+% ---------------- LOADING
 
 load_unit_of(Spec) :-
     name_of(Spec, Name),

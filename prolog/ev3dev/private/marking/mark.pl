@@ -124,9 +124,7 @@ print_score(score(Text, Points, Of, Missed), Count) :-
     ;   format(": not in ~d of ~d runs~n", [Missed, Count])
     ).
 
-                /*******************************
-                *             RUNS             *
-                *******************************/
+% ---------------- RUNS
 
 most_text(1000000).
 
@@ -327,9 +325,7 @@ write_term_line(Out, Term) :-
                                     numbervars(true) ]),
             write(Out, ' .\n') ).
 
-                /*******************************
-                *             MARKS            *
-                *******************************/
+% ---------------- MARKS
 
 marked(program(Number, Name, _, Source, Refused), Read, Seeds, Results,
        marked(Name, mark(Name, Points, Of, Scores, Runs, Reason), Its,

@@ -65,9 +65,7 @@ to_file(File, Goal) :-
         ( with_output_to(string(Text), Goal), write(Out, Text) ),
         close(Out)).
 
-                /*******************************
-                *             HTML             *
-                *******************************/
+% ---------------- HTML
 
 page(Title, Body) :-
     format("<!DOCTYPE html>~n<html lang=\"en\">~n<meta charset=\"utf-8\">~n\c
@@ -277,9 +275,7 @@ text(Text) :-
     xml_quote_attribute(Clean, Quoted, utf8),
     write(Quoted).
 
-                /*******************************
-                *          OTHER FORMS         *
-                *******************************/
+% ---------------- OTHER FORMS
 
 csv(exercise(_, _, _, Scores), Marked) :-
     findall(Text, member(score(_, Text, _, _), Scores), Texts),

@@ -184,9 +184,7 @@ is_left_by(Id, Ball) :-
          Outer < Id
        ).
 
-                /*******************************
-                *            ALARM             *
-                *******************************/
+% ---------------- ALARM
 
 %   In a Prolog without library(time) nothing looks.
 set_alarm(Id) :-
@@ -289,9 +287,7 @@ waited_for_processor(Seconds) :-
     Seconds is Nanoseconds/1.0e9.
 waited_for_processor(0).
 
-                /*******************************
-                *        OTHER CLOCKS          *
-                *******************************/
+% ---------------- OTHER CLOCKS
 
 %!  clock_changes(:Goal) is semidet.
 %

@@ -32,9 +32,7 @@ most_clauses(8).
 %   The longest file that a page gets, in bytes.
 longest(200000).
 
-                /*******************************
-                *             TEXT             *
-                *******************************/
+% ---------------- TEXT
 
 %!  source_line(+Word, +Rest, +Page, -Answer) is semidet.
 %
@@ -148,9 +146,7 @@ program_directory(Directory) :-
         )
     ).
 
-                /*******************************
-                *            ACTIVE            *
-                *******************************/
+% ---------------- ACTIVE
 
 %!  source_leave(+Page) is det.
 %

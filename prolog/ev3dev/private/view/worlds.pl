@@ -229,9 +229,7 @@ possible(Located, Robot) :-
     ;   true
     ).
 
-                /*******************************
-                *           CHOICES            *
-                *******************************/
+% ---------------- CHOICES
 
 choices(Kind, Choices) :-
     findall(json([name=Text, from=FromText]),
@@ -270,9 +268,7 @@ is_file_of(Kind, File) :-
             located_facts(Kind, File, [_|_]) ),
           error(_, _), fail).
 
-                /*******************************
-                *            FILES             *
-                *******************************/
+% ---------------- FILES
 
 world_file(Name, File, Base) :-
     program_directory(Directory),
