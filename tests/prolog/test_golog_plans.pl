@@ -1,3 +1,4 @@
+:- use_module('../support/trees').
 :- use_module(library(ev3dev/golog)).
 :- use_module('../support/cases').
 :- use_module('../support/golog/lab').

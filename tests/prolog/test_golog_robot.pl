@@ -1,5 +1,5 @@
-:- use_module(library(ev3dev/golog)).
 :- use_module('../support/trees').
+:- use_module(library(ev3dev/golog)).
 :- use_module('../support/golog/runs').
 :- use_module('../support/golog/wholes').
 :- use_module('../support/simulation').
