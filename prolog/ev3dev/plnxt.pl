@@ -77,17 +77,8 @@ robot:
 A program that begins with `:- consult('plnxt.pl').` finds the file of that
 name in `examples/`, if it is put beside the program.
 
-No source of PLNXT is public. Known from programs and reports of its students,
-so *proven*, are the names and arguments of all moves, of the sensors with
-`force`, of nxt_light_LED, nxt_play_tone, of trigger_create/3,4,
-trigger_kill/1, nxt_open, nxt_close and nxt_robot_definition. *Guessed* are:
-
-  - all timers; trigger_killall/0; nxt_robot/2, nxt_goal/2,3, nxt_threads/0:
-    their names are known, what they did is not
-  - the values of sensors: percent, centimeters, 1 or 0
-  - that positive angles turn to the right, and that nxt_turn/2 turns around
-    the inner wheel
-  - that without `force` a sensor's predicate returns the value read last
+No source of PLNXT is public. docs/reactive.md says which of its words are
+proven by programs and reports of its students, and which are guessed.
 
 What is different, and better: triggers are events of library(ev3dev/events).
 They happen in the thread that has created them, while it waits or reads a

@@ -2,7 +2,7 @@
 % What they show of the prompt and the shell is played by tests/sessions/play.py.
 
 :- use_module('../support/simulation').
-:- use_module('../support/dev', [bytes_of/2]).
+:- use_module('../support/dev', [picture/1]).
 % They run in another directory.
 :- working_directory(Home, Home),
    atom_concat(Home, prolog, Library),
@@ -90,10 +90,6 @@ linked(Target) :-
     \+ sub_string(Link, 0, _, _, "http"),
     file_directory_name(Paper, Directory),
     atomic_list_concat([Directory, /, Link], Target).
-
-picture(Bytes) :-
-    tmp_file(picture, File),
-    setup_call_cleanup(screen_png(File), bytes_of(File, Bytes), delete_file(File)).
 
 named_example(File) :-
     read_file_to_string('README.md', Text, []),

@@ -1,13 +1,9 @@
 % The example with everything that is built into the brick.
 
 :- use_module('../support/simulation').
-:- use_module('../support/dev', [bytes_of/2]).
+:- use_module('../support/dev', [picture/1]).
 
 :- initialization(load_files(traffic_light:example(traffic_light), [])).
-
-picture(Bytes) :-
-    tmp_file(picture, File),
-    setup_call_cleanup(screen_png(File), bytes_of(File, Bytes), delete_file(File)).
 
 :- begin_tests(traffic_light).
 

@@ -1,10 +1,6 @@
 :- use_module('../support/simulation').
-:- use_module('../support/dev', [bytes_of/2]).
+:- use_module('../support/dev', [picture/1]).
 :- use_module(library(ev3dev/console)).
-
-picture(Bytes) :-
-    tmp_file(picture, File),
-    setup_call_cleanup(screen_png(File), bytes_of(File, Bytes), delete_file(File)).
 
 %   What the console shows is what these lines look like.
 looks_like(Lines) :-

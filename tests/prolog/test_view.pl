@@ -84,6 +84,11 @@ frame_with(Page, Frame, Condition, Left) :-
         frame_with(Page, Frame, Condition, Left1)
     ).
 
+%   What a page that has the token sends.
+own(Port, [Cookie]) :-
+    token(Token),
+    cookie(Port, Token, Cookie).
+
 :- begin_tests(view).
 
 test(there_is_no_address_before, fail) :-
@@ -266,9 +271,6 @@ test(other_names_of_this_computer,
                            get(Port, '/samples.csv', [Host, Cookie], Code, _) ),
                          Codes) ),
                [address(any)])).
-own(Port, [Cookie]) :-
-    token(Token),
-    cookie(Port, Token, Cookie).
 
 fields([], _, []).
 fields([Field0|Fields0], Port, [Field|Fields]) :-
@@ -430,10 +432,6 @@ test(a_program_that_was_started_does_not_keep_the_port) :-
                  ( process_kill(Pid),
                    process_wait(Pid, _),
                    page_close(Page) )).
-
-own(Port, [Cookie]) :-
-    token(Token),
-    cookie(Port, Token, Cookie).
 
 fields_of(Port, [Cookie, Origin]) :-
     token(Token),

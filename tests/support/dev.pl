@@ -7,6 +7,7 @@
             events_of/2,                % +Events, -Bytes
             put_bytes_of/3,             % +Mode, +File, +Bytes
             bytes_of/2,                 % +File, -Bytes
+            picture/1,                  % -Bytes
             heard/2                     % +Tree, -Tones
           ]).
 :- use_module(trees).
@@ -163,6 +164,14 @@ bytes_of(File, Bytes) :-
         open(File, read, Stream, [type(binary)]),
         bytes(Stream, Bytes),
         close(Stream)).
+
+%!  picture(-Bytes)
+%
+%   What the screen shows, as a file of PNG.
+
+picture(Bytes) :-
+    tmp_file(picture, File),
+    setup_call_cleanup(screen_png(File), bytes_of(File, Bytes), delete_file(File)).
 
 bytes(Stream, Bytes) :-
     get_byte(Stream, Byte),

@@ -39,6 +39,13 @@ def first_line(path):
 GUARD_S = 300.0  # what comes later does not come, or the machine is much too busy
 
 
+def until(true):
+    """Waits for what must come."""
+    deadline = time.monotonic() + GUARD_S
+    while not true() and time.monotonic() < deadline:
+        time.sleep(0.01)
+
+
 class Plain:
     """Files that nothing moves."""
 
@@ -118,9 +125,7 @@ class Mount:
             [swipl, "-q", "-f", "none", "-p", f"library={library}", "-g", f"serve('{self.root}')", "-t", "halt(1)",
              str(ROOT / "tests/clients/serve.pl")],
             stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
-        deadline = time.monotonic() + GUARD_S
-        while not (self.dev / "fb0").exists() and self.server.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.02)
+        until(lambda: (self.dev / "fb0").exists() or self.server.poll() is not None)
         self.works = (self.dev / "fb0").exists()
 
     def tell(self, goal):
@@ -132,9 +137,7 @@ class Mount:
         """The server has called the goal, and all that came before."""
         done = self.root.parent / "done"
         self.tell(f"{goal}, open('{done}', write, S), close(S)")
-        deadline = time.monotonic() + GUARD_S
-        while not done.exists() and self.server.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.01)
+        until(lambda: done.exists() or self.server.poll() is not None)
         done.unlink(missing_ok=True)
 
     def motors(self):
@@ -147,14 +150,11 @@ class Mount:
         # Only now: a wire that was pulled at the end of the last run is pulled before
         self.ask("forall(member(Port-Type, [outA-m, outB-l, outC-l]), (atomic_list_concat(['lego-ev3-', Type, "
                   "'-motor'], Motor), ignore(sim_plug(Port, Motor))))")
-        deadline = time.monotonic() + GUARD_S
-        while len(list(self.root.glob("tacho-motor/*"))) < 3 and time.monotonic() < deadline:
-            time.sleep(0.01)
+        until(lambda: len(list(self.root.glob("tacho-motor/*"))) >= 3)
         for _, folder in self.motors():
             written(folder / "command", "reset" if folder.parent.name == "tacho-motor" else "float")
         self.tell("sim_place(60, 60, 0)")
-        while self.running() and time.monotonic() < deadline:
-            time.sleep(0.01)
+        until(lambda: not self.running())
 
     def running(self):
         """The ports of the motors that run."""

@@ -16,7 +16,7 @@ main :-
     write_facts(Facts),
     halt.
 
-%   A term for each Where, in lines of 78 columns
+%   A term for each Where, in lines of 98 columns
 
 write_facts(Facts) :-
     findall(Where-Texts,
@@ -39,7 +39,7 @@ write_term_lines(Where-[Text|Texts]) :-
 write_item(Text, Column0, Column) :-
     atom_length(Text, Length),
     Column1 is Column0 + Length + 2,
-    (   Column1 < 74
+    (   Column1 < 94
     ->  Column = Column1,
         format(', ~w', [Text])
     ;   Column is 4 + Length,
