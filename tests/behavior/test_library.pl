@@ -27,7 +27,7 @@ part(Name) :-
     module_property(ev3dev_core, file(Core)),
     read_file_to_terms(Core, Terms, []),
     ( member((:- reexport(Spec)), Terms) ; member((:- reexport(Spec, _)), Terms) ),
-    atom_concat('../', Name, Spec).
+    atom_concat('../../', Name, Spec).
 
 module_of(Library, Module) :-
     (   Library == ev3dev
@@ -111,40 +111,10 @@ test(private_native_exports_what_the_library_registers, true(Registered == Expor
             Registered0),
     sort(Registered0, Registered),
     exports(Exports).
-test(and_its_comments_name_them, true(Named == Exports)) :-
-    findall(Name/Arity, native_comment(Name, Arity, _), Named0),
-    sort(Named0, Named),
-    exports(Exports).
-test(and_say_which_have_several_solutions,
-     [ condition(exists_directory(src)), true(Named == Declared) ]) :-
-    setof(Name, Arity^native_comment(Name, Arity, nondet), Named),
-    setof(Name, declared_nondet(Name), Declared).
 
 exports(Exports) :-
     module_property(ev3dev_native, exports(Exports0)),
     sort(Exports0, Exports).
-
-native_comment(Name, Arity, Determinism) :-
-    module_property(ev3dev_native, file(File)),
-    line_of(File, Line),
-    string_concat("%!  ", Rest, Line),
-    split_string(Rest, "+-?:", ".", Parts),     % without the modes
-    atomic_list_concat(Parts, Text),
-    term_to_atom(Head is Determinism, Text),
-    functor(Head, Name, Arity).
-
-declared_nondet(Name) :-
-    member(Pattern, ['src/*.rs', 'src/*/*.rs']),
-    expand_file_name(Pattern, Files),
-    member(File, Files),
-    line_of(File, Line),
-    split_string(Line, "\"", " ", ["nondet fn", Name0|_]),
-    atom_string(Name, Name0).
-
-line_of(File, Line) :-
-    read_file_to_string(File, Text, []),
-    split_string(Text, "\n", "", Lines),
-    member(Line, Lines).
 
 :- end_tests(natives).
 

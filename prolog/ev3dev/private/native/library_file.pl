@@ -220,11 +220,11 @@ without_library(Error) :-
 
 check_natives :-
     loaded,
-    predicate_property(ev3dev_native:sim_active_, defined),  % built with it
+    predicate_property(ev3dev_native:sim_active_, foreign),  % built with it
     module_property(ev3dev_native, exports(Exports)),
     one_of(Exports, Name/Arity),
     functor(Head, Name, Arity),
-    \+ predicate_property(ev3dev_native:Head, defined),
+    \+ predicate_property(ev3dev_native:Head, foreign),
     !,
     pack_folder(Pack),
     format(atom(Text),
