@@ -1,7 +1,7 @@
 :- module(ev3dev_library_file,
           [ load_library/0,
             library_file/1,             % -File
-            check_natives/0
+            check_natives/1             % +Module
           ]).
 :- use_module('../basics/small_lists').
 
@@ -212,19 +212,19 @@ without_library(Error) :-
     load_files(File, [if(not_loaded), imports([])]),
     ev3dev_no_library:without_library(Error).
 
-%!  check_natives is det.
+%!  check_natives(+Module) is det.
 %
-%   Without one of the predicates that ev3dev_native exports, the library is
+%   Without one of the predicates that Module exports, the library is
 %   older than the Prolog files: nothing of the pack works then, as without a
 %   library. native.pl calls this when it is loaded.
 
-check_natives :-
+check_natives(Module) :-
     loaded,
-    predicate_property(ev3dev_native:sim_active_, foreign),  % built with it
-    module_property(ev3dev_native, exports(Exports)),
+    predicate_property(Module:sim_active_, foreign),  % built with it
+    module_property(Module, exports(Exports)),
     one_of(Exports, Name/Arity),
     functor(Head, Name, Arity),
-    \+ predicate_property(ev3dev_native:Head, foreign),
+    \+ predicate_property(Module:Head, foreign),
     !,
     pack_folder(Pack),
     format(atom(Text),
@@ -232,7 +232,7 @@ check_natives :-
             define ~q. Run "make" in ~w', [Name/Arity, Pack]),
     without_library(error(existence_error(foreign_library, ev3dev),
                           context(_, Text))).
-check_natives.
+check_natives(_).
 
 %   A library that needs a newer C library does not suit this machine, either.
 

@@ -241,7 +241,7 @@
             view_source_/1              % -Source
           ]).
 :- use_module('../errors/errors', []).
-:- use_module(library_file, [check_natives/0]).
+:- use_module(library_file, [check_natives/1]).
 
 /** <module> The native predicates
 
@@ -254,4 +254,4 @@ is missing.
 */
 
 % This directive stands last.
-:- check_natives.
+:- check_natives(ev3dev_native).
