@@ -623,7 +623,7 @@ def view_table(measured):
         *(row(what, f"{measured[name]['median'] * 1e3:.1f} ms, at worst "
                     f"{measured[name]['worst'] * 1e3:.1f} ms of ten")
           for what, name in (("STOP to the motors' `stop`", "stop_seconds"),
-                             ("a motor's start until a page is told", "seen_seconds")))]
+                             ("a motor's start until a page shows it", "seen_seconds")))]
 
 
 def papers(results):

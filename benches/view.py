@@ -6,7 +6,7 @@
 A toplevel with a simulated robot that drives in the room, at x1 of the virtual
 clock; and pages, as small as can be, that ask for 20 frames a second. Processor time
 is that of all threads but the program's, as a share of one core. Beside it the time
-from STOP to the motors' `stop`, and from a motor's start until a page is told.
+from STOP to the motors' `stop`, and from a motor's start until a page shows it.
 benches/run.py measures it, too.
 
 With --strangers instead: how long, at worst, a new page, the next frame of an open one

@@ -112,9 +112,14 @@ prose(File, Number, Comment) :-
 
 %!  comment(-File, -Number, -Text) is nondet.
 %
-%   Text is a line of a comment of the pack's own files. If the comment begins
-%   in it, it begins with a caret.
+%   Text is a line of a paper, or of a comment of the pack's own files. If a
+%   comment begins in it, it begins with a caret.
 
+comment(File, Number, Text) :-
+    member(Pattern, ['README.md', 'docs/*.md', 'docs/*/*.md', 'course/*/*.md']),
+    expand_file_name(Pattern, Files),
+    member(File, Files),
+    line_of(File, Number, Text).
 comment(File, Number, Text) :-
     member(Folder-Extension-Mark,
            [ prolog-pl-"%", examples-pl-"%", course-pl-"%", app-pl-"%", tests-pl-"%",
