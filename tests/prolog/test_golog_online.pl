@@ -570,7 +570,7 @@ test(to_know_needs_no_value, Texts == []) :-
 test(what_books_write_has_a_hint,
      [ forall(member(Program-Hint,
                      [ (a # b)-'ndet(P, Q) for P#Q',
-                       a()-'one writes a, without ()',
+                       a()-'Write a, without ()',
                        [a, (a : b)]-'[P, Q] for P:Q',
                        ?((n = 0) & (n = 0))-'and(P, Q) for P & Q',
                        if(n = 0, b)-'if(C, P, [])',

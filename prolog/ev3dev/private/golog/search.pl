@@ -80,7 +80,9 @@ ev3dev_golog_transitions:ends(achieve(Goal, _), S, X) :-
 
 rules(X, M) :-
     context_module(X, M),
-    has_clauses(M, rule(_, _, _)).
+    Rule = rule(_, _, _),
+    has_clauses(M, Rule),
+    \+ predicate_property(M:Rule, built_in).   % rule/3 of SWI-Prolog 9
 
 rule_of(M, Goal, Guard, Body) :-
     Rule = rule(Goal, Guard, Body),
