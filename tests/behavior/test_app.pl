@@ -142,7 +142,6 @@ ends([ "start :-",
      [ "ERROR: FILE:5: led/2: foo is not one of: off" ]).
 
 :- begin_tests(app).
-
 test(help_names_every_command) :-
     app("--help", 0, Output),
     said(Output, ["view [FILE]", "sim WORLD", "run FILE", "devices", "check",
@@ -215,11 +214,9 @@ test(check_takes_the_time_of_the_simulated_robot) :-
     app("check --world room", 0, Output),
     assertion(has(Output, "1000 reads: 5")),
     assertion(\+ has(Output, "in 0.00 s")).
-
 :- end_tests(app).
 
 :- begin_tests(app_prompt).
-
 test(the_prompt_has_the_libraries,
      forall(member(Line, ["sim room --no-open", "view --no-open"]))) :-
     app(Line,
@@ -244,13 +241,11 @@ test(the_prompt_blames_what_was_called) :-
     app("sim room --no-open", "led(left, foo).\n", 0, Output),
     said(Output, ["led/2", "foo is not one of: off"]),
     assertion(\+ has(Output, "main/1")).
-
 :- end_tests(app_prompt).
 
 %   What the papers say to type, and the examples in it.
 
 :- begin_tests(app_in_papers).
-
 %   Lines of a paper that call the app, as typed in the repository.
 
 typed(File, Typed) :-
@@ -288,13 +283,11 @@ without_view(Typed, Line) :-
         string_concat(Front, Back, Line)
     ;   Line = Typed
     ).
-
 :- end_tests(app_in_papers).
 
 %   An installed pack has no Makefile.
 
 :- begin_tests(app_playground, [condition(exists_source(library(http/http_files)))]).
-
 :- use_module(library(http/http_open)).
 
 test(a_folder_without_one) :-
@@ -341,11 +334,9 @@ got(Url, Path, Code, Type, Text) :-
         close(In)),
     split_string(Type0, ";", "", [Type1|_]),
     atom_string(Type, Type1).
-
 :- end_tests(app_playground).
 
 :- begin_tests(install, [condition(exists_file('Makefile'))]).
-
 %   What `make check` would do, in the environment of pack_install or not.
 
 checks(Environment, Output) :-
@@ -366,5 +357,4 @@ test(pack_install_checks_the_least,
     said(Output, ["tests/brick/smoke.pl", "tests/brick/example.pl"]),
     assertion(\+ has(Output, "tests/run.sh")),
     assertion(\+ has(Output, "check-rust")).
-
 :- end_tests(install).

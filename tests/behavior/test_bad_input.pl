@@ -13,7 +13,6 @@
 % or not return.
 
 :- begin_tests(any_terms).
-
 % Sensible arguments by what they are called.
 sensible(port, outB).
 sensible(sensor, in1).
@@ -294,7 +293,6 @@ iso(evaluation_error(_)).
 iso(resource_error(_)).
 iso(syntax_error(_)).
 iso(system_error(_)).
-
 :- end_tests(any_terms).
 
 % ---------------- ANY TEXTS
@@ -313,7 +311,6 @@ iso_file_error(permission_error(_, attribute, _)).
 iso_file_error(system_error(_)).
 
 :- begin_tests(any_texts).
-
 mad('').
 mad('\n\n').
 mad('  7  ').
@@ -376,7 +373,6 @@ test(a_table_of_mad_devices_is_printed, [forall(( tree(Tree), mad(Text) ))]) :-
 test(a_full_disk_throws, [ condition(exists_file('/dev/full')),
                            error(system_error(_), context(file_write/2, _)) ]) :-
     file_write('/dev/full', 5).
-
 :- end_tests(any_texts).
 
 % ---------------- ANY FILES
@@ -436,7 +432,6 @@ strange(unreadable, unreadable).
 
 % A file that no kernel has.
 :- begin_tests(any_files).
-
 test(numbers_are_read_or_refused,
      [ forall(( strange(Name, Make_1), Name \== no_newline,
                 \+ ( Name == unreadable, root_reads_all ) )),
@@ -545,14 +540,12 @@ test(a_text_of_a_page_is_written_whole, true(Length == 4096)) :-
     with_tree(plain, ( motor_attribute(outB, stop_action, Text),
                        get_attribute(outB, stop_action, Written),
                        atom_length(Written, Length) )).
-
 :- end_tests(any_files).
 
 % ---------------- FILES OF A PROGRAM
 
 % What a program names as a file that is read or written.
 :- begin_tests(files_of_a_program).
-
 names_file(File, Goal) :-
     member(Goal,
            [ sim_start(File, []), sim_start([], [robot(File)]), play(File),
@@ -617,13 +610,11 @@ test(no_file_has_a_name_with_a_nul, true(Wrong == [])) :-
               outcome(with_sim([], Goal), done, Outcome),
               \+ Outcome = error(domain_error(file_name, _), context(Name/Arity, _)) ),
             Wrong).
-
 :- end_tests(files_of_a_program).
 
 % ---------------- TORN VALUES
 
 :- begin_tests(torn_values).
-
 test(a_reader_sees_either_text_and_nothing_between,
      [forall(tree(Tree)), true(Others == [])]) :-
     with_tree(Tree, ( position(outB, 1),
@@ -640,5 +631,4 @@ alternate :-
     position(outB, 1000000),
     position(outB, 1),
     alternate.
-
 :- end_tests(torn_values).

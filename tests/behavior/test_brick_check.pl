@@ -36,7 +36,6 @@ has(Report, Text) :-
     !.
 
 :- begin_tests(brick_check).
-
 test(names_the_versions_and_the_library, [forall(tree(Tree))]) :-
     report(Tree, [], true, Report),
     pack_version(Version),
@@ -72,5 +71,4 @@ test(an_error_does_not_end_the_report, [forall(tree(Tree))]) :-
              put_attribute(in2, value0, 843) ), Report),
     assertion(has(Report, "ERROR in")),
     assertion(has(Report, "US-DIST-CM: [84.3]")).
-
 :- end_tests(brick_check).

@@ -12,7 +12,6 @@
 :- initialization(load_files(chapter_wumpus:example(golog_wumpus), [])).
 
 :- begin_tests(cognitive_robotics).
-
 test(the_elevator_serves_all_calls,
      [forall(member(How, [simple, smart])), true(Opened-Left == 4-[])]) :-
     with_sim(room,
@@ -134,5 +133,4 @@ floors(How, Floors) :-
                                              history(H) ]) )),
     findall(x, ( member(A, H), memberchk(A, [up, down]) ), Moves),
     length(Moves, Floors).
-
 :- end_tests(cognitive_robotics).

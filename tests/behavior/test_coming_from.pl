@@ -35,7 +35,6 @@ goal_of(Goal, Goal) :-
     \+ memberchk(Name, [library, rpm, rps, (-)]).
 
 :- begin_tests(coming_from).
-
 test(each_word_is_exported,
      [ forall(member(Heading, ["## python-ev3dev2", "## Pybricks", "## leJOS"])),
        true(Missing == []) ]) :-
@@ -74,11 +73,9 @@ lacks(screen_image(_, _, _)).
 lacks(open(_, _, _)).
 lacks(format(_, _, _)).
 lacks(close(_)).
-
 :- end_tests(coming_from).
 
 :- begin_tests(ported).
-
 % A robot of these devices beside its wheels, which have this diameter.
 robot(Diameter, Devices, [ left_wheel(outB, Diameter), right_wheel(outC, Diameter), axle(10.6),
                            hull(circle(8)), mass(0.75), motor(outB, 'lego-ev3-l-motor'),
@@ -206,5 +203,4 @@ silence(File) :-
     setup_call_cleanup(open(File, write, Stream, [type(binary)]),
                        forall(member(Byte, Bytes), put_byte(Stream, Byte)),
                        close(Stream)).
-
 :- end_tests(ported).

@@ -7,7 +7,6 @@
 :- initialization(load_files(compare:example(compare_planners), [])).
 
 :- begin_tests(compare_planners).
-
 map(Options, Map) :-
     grid_map([rows([".....#.", ".###.#.", "...#.#.", "^..#..."])|Options],
              Map).
@@ -109,5 +108,4 @@ test(picture_cannot_be_written,
 
 occurrences(Text, Part, Count) :-
     aggregate_all(count, sub_string(Text, _, _, _, Part), Count).
-
 :- end_tests(compare_planners).

@@ -227,7 +227,6 @@ accepts(fails,
           map_svg/1 ]).
 
 :- begin_tests(errors).
-
 test(each_export_that_takes_something_is_here, true(Missing-Gone == []-[])) :-
     findall(PI, ( public_export(_, PI), \+ public_export(ev3dev, PI),
                   takes_something(PI) ), PIs0),
@@ -377,7 +376,6 @@ test(list_what_is_allowed,
              ( set_robot(5.6, 10.6, outB, outC),
                catch(Goal, error(_, context(_, Message)), true) )),
     assertion(sub_atom(Message, _, _, _, Words)).
-
 :- end_tests(errors).
 
 text_of(Error, Text) :-

@@ -4,7 +4,6 @@
 :- use_module('../support/child').
 
 :- begin_tests(examples).
-
 loads(File, Goal, Said, End) :-
     format(atom(Text), "~q", [Goal]),
     (   getenv('SWIPL', Swipl)
@@ -97,5 +96,4 @@ program(File, Name) :-
 example(File) :-
     expand_file_name('examples/*.pl', Files),
     member(File, Files).
-
 :- end_tests(examples).

@@ -38,7 +38,6 @@ golog_of(Module:Program, Options) :-
     golog(Module:Program, Options).
 
 :- begin_tests(golog_plain).
-
 test(the_simple_elevator,
      Run == [down, down, serve(1), up, up, up, serve(4), down, down, down]) :-
     plain(control(simple), [], Run).
@@ -62,11 +61,9 @@ test(all_is_executed, Count == 4) :-
 plain(Program, More, Run) :-
     with_domain_file(elevator_plain, More, M, run(M:Program, [], Run0)),
     findall(E, ( member(E0, Run0), ( E0 = move(E) -> true ; E = E0 ) ), Run).
-
 :- end_tests(golog_plain).
 
 :- begin_tests(golog_full).
-
 test(main_is_the_controller,
      Run == [ down, open_door, serve(1), shut_door, up, up, up, up,
               open_door, serve(5), shut_door, down, down, down, down ]) :-
@@ -92,7 +89,6 @@ full(Controller, Options, Run) :-
     with_domain_file(elevator_full, [controller(Controller)], M,
                      ( nb_setval(golog_full, M-0),
                        run(M:main, Options, Run) )).
-
 :- end_tests(golog_full).
 
 %   At the first `up`: a call, and smoke that goes away when the bell rings.
@@ -110,7 +106,6 @@ user:at_first_up(E) :-
     ).
 
 :- begin_tests(golog_legolog).
-
 test(the_post_goes_from_door_to_door,
      Run == [ order(4, 1), leave, reached, leave, reached, honk, loaded,
               turn_back, leave, reached, leave, reached, leave, reached,
@@ -136,11 +131,9 @@ test(the_domain_may_read_its_fluents, Value == 3) :-
 
 delivery(M, Goal) :-
     with_sim(room, with_domain_file(delivery_legolog, [], M, Goal)).
-
 :- end_tests(golog_legolog).
 
 :- begin_tests(golog_wumpus).
-
 cave(1, [ wumpus(loc(1, 3)), pit(loc(3, 1)), pit(loc(3, 3)), pit(loc(4, 4)),
           gold(loc(2, 3)) ]).
 cave(2, [wumpus(loc(4, 4)), pit(loc(4, 1)), gold(loc(3, 3))]).
@@ -171,7 +164,6 @@ test(it_shoots_the_wumpus, [Shots, Screams] == [1, 1]) :-
     length(Xs, Shots),
     findall(x, member(scream, H), Ys),
     length(Ys, Screams).
-
 :- end_tests(golog_wumpus).
 
 %   To be at L after the history H is deadly.

@@ -20,7 +20,6 @@ after_program(Tree, Text, Options, Status, B-C) :-
                 left(outC, command, Output, C) )).
 
 :- begin_tests(halt).
-
 test(motors_that_were_started_are_stopped,
      [ forall(( tree(Tree),
                 member(Start, [ "motor_run(outB, 20)",
@@ -125,11 +124,9 @@ test(after_an_end_that_is_canceled_they_start_and_stop_as_ever,
                          main :- at_halt(( retract(cancels) -> cancel_halt(not_yet) ; true )),
                                  motor_run(outB, 20), \\+ halt, motor_run(outC, 20).",
                   [goal(main)], Status, C).
-
 :- end_tests(halt).
 
 :- begin_tests(signals).
-
 test(a_program_that_is_told_to_end_stops_its_motors,
      [ forall(( tree(Tree),
                 member(Signal, [term, int, hup]),
@@ -349,5 +346,4 @@ signalled(Tree, Signal, Text, Options0, Status, When, B, C) :-
                 end_output(Child, _),
                 call(When, ( left(outB, command, "", B),
                              left(outC, command, "", C) )) )).
-
 :- end_tests(signals).

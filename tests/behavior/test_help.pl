@@ -28,7 +28,6 @@ has_help :-
     exists_source(library(help)).
 
 :- begin_tests(help).
-
 test(costs_nothing_before_it_is_asked, true(Loaded == [])) :-
     costs_a_session(Loaded).
 test(answers_for_each_export, true(Without == [])) :-
@@ -258,5 +257,4 @@ first_for(simulator, 'ev3dev/sim:sim_start/1,2').
 first_for(rules, 'ev3dev/rules:behave/1,2').
 first_for(event, 'ev3dev/events:event/2').
 first_for(battery, 'ev3dev:battery/2').
-
 :- end_tests(help).

@@ -214,7 +214,6 @@ begins(Text, Start) :-
     sub_atom(Text, 0, _, _, Start).
 
 :- begin_tests(hints, [setup(no_robot)]).
-
 test(what_is_missing_is_told_once,
      [forall(( tree(Tree), absent(Goal, Start) )), true(Texts = [_])]) :-
     with_tree(Tree, [ in1-'lego-ev3-us', in2-'lego-ev3-color',
@@ -333,11 +332,9 @@ test(a_brick_without_buttons_or_speaker,
                   ( ev3_dev(Before), tree_root(Root), ev3_dev(Root) ),
                   hints(Goal, Texts),
                   ev3_dev(Before))).
-
 :- end_tests(hints).
 
 :- begin_tests(flag, [setup(no_robot)]).
-
 test(is_once_at_first) :-
     run_program(":- use_module(library(ev3dev)).\n",
                 [ goal('current_prolog_flag(ev3dev_hints, once)'),
@@ -391,11 +388,9 @@ test(what_has_been_told_is_bounded, true(Count == 100)) :-
                motor_run(Port, 50) ),
              Texts)),
     length(Texts, Count).
-
 :- end_tests(flag).
 
 :- begin_tests(debug, [setup(no_robot)]).
-
 %   What `debug(ev3dev)` says of Goal, which fails, if hints are off.
 said_of(Goal, Said) :-
     setup_call_cleanup(
@@ -429,5 +424,4 @@ test(in_a_fresh_session_the_topic_is_known) :-
     run_program(":- use_module(library(ev3dev)).\n", [goal('debug(ev3dev)')],
                 exit(0), Output),
     assertion(Output == "").
-
 :- end_tests(debug).

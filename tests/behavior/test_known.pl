@@ -4,7 +4,6 @@
 :- use_module(library(thread)).
 
 :- begin_tests(known).
-
 test(each_answer_is_that_of_the_file_now,
      true(Seen == [7-running, 8-'', -9-'running ramping'])) :-
     with_tree(plain, [outB-'lego-ev3-l-motor'],
@@ -91,7 +90,6 @@ test(threads_have_each_their_own, true(Positions == [3, 3, 3])) :-
                 findall(position(outB, _), between(1, 3, _), Goals),
                 concurrent(3, Goals, []),
                 findall(P, member(position(outB, P), Goals), Positions) )).
-
 :- end_tests(known).
 
 :- multifile ev3dev_sensors:reading/4.

@@ -5,7 +5,6 @@
 % ---------------- EXPORTS
 
 :- begin_tests(exports).
-
 % The names are in docs/predicates.md, compared with them by `make lint`.
 test(library_ev3dev_has_all_of_its_parts, true(Missing-More == []-[])) :-
     findall(P, ( part(Name), public_export(Name, P) ), Expected),
@@ -35,13 +34,11 @@ module_of(Library, Module) :-
     ;   use_module(library(ev3dev/Library), []),
         atom_concat(ev3dev_, Library, Module)
     ).
-
 :- end_tests(exports).
 
 % ---------------- LOADING
 
 :- begin_tests(loading).
-
 test(prints_nothing, true(Status-Output == exit(0)-"")) :-
     run_program(":- use_module(library(ev3dev)).", [], Status, Output).
 test(works_from_any_folder, true(Status-Output == exit(0)-"ok")) :-
@@ -96,13 +93,11 @@ tells_directory(Query, Program) :-
     format(string(Program),
            ":- use_module(library(ev3dev)).
             main :- ~q(Directory), write(Directory).", [Query]).
-
 :- end_tests(loading).
 
 % ---------------- NATIVE PREDICATES
 
 :- begin_tests(natives).
-
 test(private_native_exports_what_the_library_registers, true(Registered == Exports)) :-
     findall(Name/Arity,
             ( predicate_property(ev3dev_native:Head, foreign),
@@ -115,14 +110,12 @@ test(private_native_exports_what_the_library_registers, true(Registered == Expor
 exports(Exports) :-
     module_property(ev3dev_native, exports(Exports0)),
     sort(Exports0, Exports).
-
 :- end_tests(natives).
 
 % ---------------- THE BINARY
 
 % A dynamic library names those that it needs in its string table.
 :- begin_tests(binary).
-
 test(needs_no_libswipl, true(Needs == none)) :-
     ev3dev_library_file:library_file(File),
     read_file_to_string(File, Bytes, [encoding(octet)]),
@@ -130,5 +123,4 @@ test(needs_no_libswipl, true(Needs == none)) :-
     ->  Needs = libswipl
     ;   Needs = none
     ).
-
 :- end_tests(binary).

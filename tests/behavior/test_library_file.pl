@@ -10,7 +10,6 @@ The packs here hold nothing but ELF headers.
 */
 
 :- begin_tests(library_file).
-
 test(finds_a_library_that_the_program_can_load) :-
     library_file(File),
     exists_file(File).
@@ -52,12 +51,10 @@ test(names_what_there_is_if_none_suits) :-
           error(_, context(_, Message)), true),
     sub_atom(Message, _, _, _, File),
     !.
-
 :- end_tests(library_file).
 
 % As after a pack_install that found no Rust
 :- begin_tests(no_library, [setup(make_copy), cleanup(delete_copy)]).
-
 test(each_public_library_says_so_once,
      [ forall(public_library(Library)), true(Wrong == []) ]) :-
     load_goal(Library, Goal),
@@ -97,7 +94,6 @@ test(the_app_ends, [condition(exists_file('app/ev3dev.pl')), true(Wrong == [])])
     atom_concat(Copy, '/app/ev3dev.pl', File),
     run([File, view], Output),
     findall(Line, ( member(Line, Output), \+ says_so(Line) ), Wrong).
-
 :- end_tests(no_library).
 
 :- dynamic copy/1.

@@ -23,7 +23,6 @@ begins(Line, Prefix) :-
     sub_string(Line, 0, _, _, Prefix).
 
 :- begin_tests(localize_examples).
-
 test(lost_in_the_room, Ends == ["at 40, 210", "at 250, 40"]) :-
     lines(room, ( sim_place(120, 80, 200),
                   lost:start([40-210, 250-40]),
@@ -56,5 +55,4 @@ test(explores_draws_the_map_and_goes_home, Last == "at home") :-
              size_file(Made, Size),
              assertion(Size > 1000),
              delete_file(Made) )).
-
 :- end_tests(localize_examples).

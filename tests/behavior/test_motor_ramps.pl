@@ -109,7 +109,6 @@ at_speed(N) :-
     sim_wait(Wait).
 
 :- begin_tests(motor_ramps_end).
-
 test(no_sequence_of_moves_turns_for_ever, true(Seeds == [])) :-
     schedules(First, Last),
     with_sim([], findall(Seed, ( between(First, Last, Seed), is_endless(Seed) ), Seeds)).
@@ -170,5 +169,4 @@ test(short_moves_in_a_row_are_all_over_soon, true(Late == [])) :-
                          Seconds is T - T0,
                          Seconds > 10 ),
                        Late) )).
-
 :- end_tests(motor_ramps_end).

@@ -166,7 +166,6 @@ all_wrong(Kind, Wrongs) :-
         ( working_directory(_, Before), delete_directory_and_contents(Directory) )).
 
 :- begin_tests(odd_terms, [ setup(silent(true)), cleanup(silent(false)) ]).
-
 test(what_is_left_out_is_there, true(Gone == [])) :-
     findall(Name,
             ( clause(left_out(Name), true),
@@ -185,5 +184,4 @@ test(are_no_reason_for_what_is_no_iso_error, true(Wrongs == [])) :-
     all_wrong(public, Wrongs).
 test(are_no_reason_for_a_panic, true(Wrongs == [])) :-
     all_wrong(native, Wrongs).
-
 :- end_tests(odd_terms).

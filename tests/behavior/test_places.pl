@@ -28,7 +28,6 @@ in_a_world(Goal) :-
                call(Goal) )).
 
 :- begin_tests(places).
-
 test(are_written_as_pairs, [ forall(with_place(15-20, Goal)) ]) :-
     in_a_world(Goal).
 test(may_be_lists, [ forall(with_place([15, 20], Goal)) ]) :-
@@ -65,5 +64,4 @@ test(answers_are_pairs) :-
                navigate_to([], 0-100, [obstacles(Found)]) )),
     Points = [_-_, _-_],
     Found = [polygon([_-_, _-_, _-_|_])|_].
-
 :- end_tests(places).

@@ -18,7 +18,6 @@
 :- dynamic complaint/1.
 
 :- begin_tests(pldoc).
-
 test(makes_a_page_of_each_library,
      [ forall(library_file(File)), true(Complaints-Closed == []-true) ]) :-
     setup_call_cleanup(
@@ -51,16 +50,13 @@ library_file(File) :-
     expand_file_name(Pattern, Files),
     member(Relative, Files),
     absolute_file_name(Relative, File).
-
 :- end_tests(pldoc).
 
 :- else.
 
 :- begin_tests(pldoc).
-
 test(is_installed, [blocked('library(pldoc) or HTTP is not installed')]) :-
     true.
-
 :- end_tests(pldoc).
 
 :- endif.

@@ -9,7 +9,6 @@
    asserta(user:file_search_path(library, Library)).
 
 :- begin_tests(readme).
-
 test(the_face_is_the_picture_beside_it, true(Drawn == Kept)) :-
     read_file_to_string('docs/predicates.md', Text, []),
     sub_string(Text, Start, _, _, "face :-"),
@@ -98,5 +97,4 @@ named_example(File) :-
     sub_string(Text, From, _, 0, Rest),
     split_string(Rest, "` \n", "", [Name|_]),
     atomic_list_concat(['examples/', Name, '.pl'], File).
-
 :- end_tests(readme).

@@ -25,7 +25,6 @@ watch(Seconds) :-
              assertz(place(A, B, C)) )).
 
 :- begin_tests(robots_examples).
-
 test(the_heavier_and_stronger_wins, [forall(case(20, Seed)), true(Winner == east)]) :-
     sumo_match:match(Winner, [noise(true), seed(Seed)]).
 test(nobody_is_left_in_the_ring, Names == [local]) :-
@@ -57,5 +56,4 @@ test(two_robots_draw_one_map, Near-Far == true-true) :-
 between_(Low, Value, High) :-
     Low =< Value,
     Value =< High.
-
 :- end_tests(robots_examples).

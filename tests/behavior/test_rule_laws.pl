@@ -27,7 +27,6 @@ seed(Seed) :-
            ( print(Term), nl )).
 
 :- begin_tests(rule_laws).
-
 test(random_rules_keep_to_the_laws, true(Wrongs == [])) :-
     schedules(First, Last),
     findall(Seed:Wrong, ( between(First, Last, Seed), broken(Seed, Wrong) ), Wrongs).
@@ -41,11 +40,9 @@ run_text(Seed, Case, Text) :-
     run_of_case(Seed, Case, Run),
     numbervars(Run, 0, _),
     format(string(Text), "~q", [Run]).
-
 :- end_tests(rule_laws).
 
 :- begin_tests(same_journal).
-
 % With noise in sensors and motors, in processes of their own, while others take the
 % processors away from them.
 test(the_same_seed_writes_the_same_journal, true(Different == [First])) :-
@@ -93,5 +90,4 @@ run_started(Child) :-
 
 journal_of(Child, Journal) :-
     end_program(Child, exit(0), Journal).
-
 :- end_tests(same_journal).

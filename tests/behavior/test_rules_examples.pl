@@ -39,7 +39,6 @@ gets_around(Poses) :-
     North > 150.
 
 :- begin_tests(rules_wander).
-
 test(gets_around_and_frees_itself) :-
     driven(room, [robot(touch)], 90, rules_wander:start, Poses, Collisions),
     gets_around(Poses),
@@ -59,11 +58,9 @@ test(escapes_each_time_that_it_is_touched, true(Backward >= 2)) :-
                     atom_number(Text, Speed),
                     Speed < -100 ),
                   Backward).
-
 :- end_tests(rules_wander).
 
 :- begin_tests(rules_bumper_car).
-
 test(drives_a_minute_without_a_collision, true(Collisions == [])) :-
     driven(room, [], 60, rules_bumper_car:start, Poses, Collisions),
     gets_around(Poses).
@@ -74,11 +71,9 @@ test(backs_off_when_its_bumper_is_pressed) :-
                sim_pose(_, Y, _) ),
              [robot(touch)]),
     near(Y, 25, 10).
-
 :- end_tests(rules_bumper_car).
 
 :- begin_tests(rules_light_seeker).
-
 test(comes_near_the_lamp_again_and_again_and_flees, true(Collisions == [])) :-
     driven(lights, [], 60, rules_light_seeker:start, Poses, Collisions),
     findall(Near,
@@ -98,11 +93,9 @@ changes(Values, Changes) :-
     aggregate_all(count,
                   ( nextto(Before, After, Values), Before \== After ),
                   Changes).
-
 :- end_tests(rules_light_seeker).
 
 :- begin_tests(rules_line_follower).
-
 test(gets_around, true(Collisions == [])) :-
     driven(line, [noise(true)], 60, rules_line_follower:start, Poses,
            Collisions),
@@ -120,11 +113,9 @@ test(stands_before_an_obstacle_until_it_is_gone, true(Collisions == [])) :-
     \+ ( member(pose(T, _, _), Poses), T > 8, T < 15 ),
     nearest(Poses, 190, 70, Nearest),
     near(Nearest, 0, 5).
-
 :- end_tests(rules_line_follower).
 
 :- begin_tests(rules_sumo).
-
 in_ring(Poses) :-
     forall(member(pose(_, X, Y), Poses),
            ( distance(X, Y, 0, 0, D), D < 77 )).
@@ -151,11 +142,9 @@ world_fact(World, Fact) :-
     atomic_list_concat(['prolog/ev3dev/worlds/', World, '.pl'], File),
     read_file_to_terms(File, Facts, []),
     member(Fact, Facts).
-
 :- end_tests(rules_sumo).
 
 :- begin_tests(rules_traffic_light).
-
 :- dynamic seen/3.
 
 test(has_four_states_and_blinks_by_night,
@@ -178,11 +167,9 @@ note(Time) :-
     led(left, L),
     led(right, R),
     assertz(seen(Time, L, R)).
-
 :- end_tests(rules_traffic_light).
 
 :- begin_tests(rules_processes).
-
 test(drives_out_at_an_order_waits_and_comes_back) :-
     with_sim([wall(-50, 150, 50, 150)],
              ( sim_press(enter, [after(1)]),
@@ -213,11 +200,9 @@ test(comes_back_at_once_when_it_is_recalled) :-
 test(leaves_no_event_behind, true(Ids == [])) :-
     with_sim([], for_seconds(1, rules_processes:start)),
     findall(Id, event(Id, _), Ids).
-
 :- end_tests(rules_processes).
 
 :- begin_tests(plnxt_program).
-
 world([ bounds(0, 0, 150, 150), start(40, 40, 30),
         patch(black, [100-0, 150-0, 150-150, 100-150]) ]).
 
@@ -236,5 +221,4 @@ test(stays_on_white_and_away_from_walls_for_its_time) :-
     East < 110,
     min_list(Xs, West),
     West < 40.
-
 :- end_tests(plnxt_program).

@@ -23,7 +23,6 @@ save(Text, State, Options) :-
 
 % A program in another process.
 :- begin_tests(saved_state).
-
 test(reads_and_runs, Status-Seen == exit(0)-"0") :-
     after_state(plain, "main :- touch(in1, T), write(T).", Status, Seen, _).
 test(stops_its_motors_when_it_halts, Command == stop) :-
@@ -31,5 +30,4 @@ test(stops_its_motors_when_it_halts, Command == stop) :-
 test(what_is_loaded_at_first_use_is_found, Caught == "led_color") :-
     after_state(plain, "main :- catch(led(left, blu), error(domain_error(_, blu), _),
                                       write(led_color)).", _, Caught, _).
-
 :- end_tests(saved_state).

@@ -5,7 +5,6 @@
 :- load_files(remote_control:example(remote_control), []).
 
 :- begin_tests(thermometer).
-
 test(shows_how_warm_it_is,
      [ forall(( behaving(Tree),
                 member(Type, ['lego-nxt-temp', 'ms-ir-thermometer']) )),
@@ -34,11 +33,9 @@ test(goes_on_until_the_sensor_is_gone, true(Lines >= 2)) :-
     Lines is Count - 1.
 test(fails_without_a_sensor, [fail]) :-
     with_tree(plain, thermometer:thermometer).
-
 :- end_tests(thermometer).
 
 :- begin_tests(remote_control).
-
 test(goes_turns_and_stops_as_it_is_told, true(End-States == true-([]/[]))) :-
     with_sensor(simulator, 'lego-ev3-ir', [],
                 setup_call_cleanup(
@@ -89,5 +86,4 @@ turns(Left, Right) :-
     speed(outC, R),
     Left =:= sign(L),
     Right =:= sign(R).
-
 :- end_tests(remote_control).

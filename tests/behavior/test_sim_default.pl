@@ -18,7 +18,6 @@ told(Output) :-
     !.
 
 :- begin_tests(default, [condition(no_brick)]).
-
 test(loading_starts_nothing) :-
     prints(true, [], Output),
     \+ told(Output).
@@ -70,5 +69,4 @@ test(several_threads_start_one_again) :-
              concurrent(3, [us_dist_cm(in1, _), gyro_ang(in4, _), position(outB, _)],
                         []) ), [], Output),
     findall(At, sub_string(Output, At, _, _, "simulating"), [_, _]).
-
 :- end_tests(default).

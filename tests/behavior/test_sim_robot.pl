@@ -31,7 +31,6 @@ distance(X1, Y1, X2, Y2, Distance) :-
     Distance is sqrt((X1 - X2)^2 + (Y1 - Y2)^2).
 
 :- begin_tests(moves).
-
 test(goes_a_metre_within_a_centimetre) :-
     with_sim([], ( robot, go_cm(30, 100), sim_pose(X, Y, _) )),
     near(X, 0, 1),
@@ -79,11 +78,9 @@ best_way(Snapshot, Angle) :-
     ignore(go_cm(30, 60)),
     sim_collisions([]),
     !.
-
 :- end_tests(moves).
 
 :- begin_tests(obstacle_avoidance).
-
 test(drives_two_minutes_without_a_collision) :-
     with_sim(room,
              ( for_seconds(120, obstacle_avoidance:start),
@@ -99,11 +96,9 @@ test(drives_two_minutes_without_a_collision) :-
     North > 100.
 test(stands_when_it_is_interrupted, [forall(member(Seconds, [1, 5, 20]))]) :-
     with_sim(room, ( for_seconds(Seconds, obstacle_avoidance:start), at_rest )).
-
 :- end_tests(obstacle_avoidance).
 
 :- begin_tests(braitenberg).
-
 lamp(150, 190).
 
 %   How near a vehicle comes to the lamp, and how far it is at the end.
@@ -136,11 +131,9 @@ test(stands_when_an_eye_is_pulled) :-
                        sim_step(2),
                        \+ braitenberg:vehicle(alive),
                        at_rest )).
-
 :- end_tests(braitenberg).
 
 :- begin_tests(line).
-
 test(two_eyes_keep_the_robot_on_the_line) :-
     with_sim(line,
              ( for_seconds(60, follow),
@@ -160,11 +153,9 @@ follow :-
     motors_run([run(outB, SpeedLeft), run(outC, SpeedRight)]),
     !,
     follow.
-
 :- end_tests(line).
 
 :- begin_tests(maze).
-
 test(the_right_hand_on_the_wall_finds_the_exit) :-
     with_sim(maze, ( robot, to_exit(100), sim_pose(X, Y, _),
                      sim_collisions([]) )),
@@ -191,11 +182,9 @@ to_free :-
     ;   turn(20, -90),
         to_free
     ).
-
 :- end_tests(maze).
 
 :- begin_tests(golden_run).
-
 program :-
     robot,
     forall(member(Angle, [90, 45, -120, 30]),
@@ -222,5 +211,4 @@ test(is_the_same_each_time) :-
 test(is_the_same_everywhere) :-
     digest(Digest),
     Digest == '346bd3a7dabbc2550dbd1f2959aafae28e6e20d8'.
-
 :- end_tests(golden_run).

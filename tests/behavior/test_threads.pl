@@ -6,7 +6,6 @@
 :- use_module('../support/trees').
 
 :- begin_tests(threads).
-
 %   How long to go on, in seconds.
 lasts(Seconds) :-
     cases(10, Seconds).
@@ -76,11 +75,9 @@ replugs(sane) :-
     max_speed(outD, 1020),
     motor_run(outD, 10),
     get_attribute(outD, speed_sp, '102').
-
 :- end_tests(threads).
 
 :- begin_tests(thread_ends).
-
 % Prolog leaves the thread without any cleanup, so its motor may run on. A motor has run
 % before: the first one asks Prolog for leave, and thread_exit/1 within such a question
 % breaks Prolog itself.
@@ -99,11 +96,9 @@ test(thread_exit_in_a_wait_ends_that_thread_only,
                     thread_join(Id, Status), us_dist_cm(_, _),
                     ( Status = exited(bye) -> write(exited) ; print(Status) ).", [Wait]),
     run_program(Program, [goal(main)], Status, Output).
-
 :- end_tests(thread_ends).
 
 :- begin_tests(same_runs).
-
 % Threads on the virtual clock: a process that runs the program prints all that
 % happened, with the times.
 
@@ -165,5 +160,4 @@ printed(Text, Output) :-
                     forall(member(Event, Trace), ( print(Event), nl )),
                     sim_pose(X, Y, H), print(X/Y/H), nl.", [Text]),
     run_program(Program, [goal(main)], exit(0), Output).
-
 :- end_tests(same_runs).

@@ -362,7 +362,6 @@ all_wrong(Wrong_2, Wrongs) :-
             Wrongs).
 
 :- begin_tests(torture, [ setup(silent(true)), cleanup(silent(false)) ]).
-
 % Moves that end early warn: not here.
 silent(true) :-
     asserta((user:message_hook(_, warning, _) :- !)).
@@ -397,5 +396,4 @@ a_simulation :-
 open_files(Count) :-
     directory_files('/proc/self/fd', Files),
     length(Files, Count).
-
 :- end_tests(torture).

@@ -8,7 +8,6 @@
 :- use_module(library(ev3dev/roadmap)).
 
 :- begin_tests(tracing).
-
 test(shows_no_port_of_an_inner_predicate,
      [ forall(member(Goal-Called,
                      [ "motor_run(outB, 50, 360, [])"-"motor_run",
@@ -32,7 +31,6 @@ test(shows_no_port_of_an_inner_predicate,
     run_program(Program, [goal(main)], Status, Seen).
 test(is_kept_out_of_each_module, Shown == []) :-
     findall(Module:Name/Arity, shown(Module, Name, Arity), Shown).
-
 :- end_tests(tracing).
 
 % A predicate that the tracer would go into

@@ -6,7 +6,6 @@
 :- initialization(load_files(traffic_light:example(traffic_light), [])).
 
 :- begin_tests(traffic_light).
-
 test(shows_each_colour,
      [ forall(member(Color, [red, amber, green])),
        true(Colors-Same == [left-Color, right-Color]-true)
@@ -45,5 +44,4 @@ test(fails_without_a_brick, fail) :-
     ev3_sysfs(tests),
     ev3_dev(tests),
     traffic_light:start.
-
 :- end_tests(traffic_light).

@@ -4,7 +4,6 @@
 :- use_module('../support/trees').
 
 :- begin_tests(devices).
-
 test(motors_in_the_order_of_ports,
      [forall(tree(Tree)), true(Ports == [outA, outB, outC])]) :-
     on(Tree, findall(Port, tacho_motor(Port), Ports)).
@@ -43,11 +42,9 @@ test(a_table_of_all, [forall(tree(Tree))]) :-
 test(a_tree_that_is_switched_is_seen, true(A-B == 1050-[])) :-
     on(simulator, ( max_speed(outB, A),
                     with_tree(plain, [], findall(P, tacho_motor(P), B)) )).
-
 :- end_tests(devices).
 
 :- begin_tests(attributes).
-
 test(set_points_are_stored, [forall(tree(Tree)), true(S-P == -321-77)]) :-
     on(Tree, ( speed_sp(outB, -321), position_sp(outB, 77),
                speed_sp(outB, S), position_sp(outB, P) )).
@@ -80,11 +77,9 @@ test(no_such_value,
      [ forall(behaving(Tree)),
        error(domain_error(sensor_value_index, 5), _) ]) :-
     on(Tree, value(in1, 5, _)).
-
 :- end_tests(attributes).
 
 :- begin_tests(sensors).
-
 test(distances_have_decimals, [forall(tree(Tree))]) :-
     on(Tree, ( us_dist_cm(Port, Distance),
                Port == in1,
@@ -112,11 +107,9 @@ test(the_gyro_starts_from_0, [forall(tree(Tree)), true(Angle == 0)]) :-
     on(Tree, ( gyro_reset(in4), gyro_ang(in4, Angle) )).
 test(the_wrong_sensor_fails, [forall(tree(Tree)), fail]) :-
     on(Tree, col_ambient(in1, _)).
-
 :- end_tests(sensors).
 
 :- begin_tests(motors).
-
 test(runs_until_it_is_stopped, [forall(behaving(Tree)), true(R == stopped)]) :-
     on(Tree, ( motor_run(outA, 50),
                motor_wait(outA, [timeout(0.3)], timeout),
@@ -159,11 +152,9 @@ test(a_time_limit_stops_it, [forall(behaving(Tree)), true(Fs == [])]) :-
 test(a_timeout_stops_it, [forall(behaving(Tree)), true(Fs == [])]) :-
     on(Tree, ( \+ motor_run(outA, 5, 3600, [timeout(0.2)]),
                motor_states(outA, Fs) )).
-
 :- end_tests(motors).
 
 :- begin_tests(robot).
-
 test(goes_a_distance, [forall(behaving(Tree))]) :-
     on(Tree, ( set_robot(5.6, 10.6, outB, outC),
                go_cm(40, 10),
@@ -185,5 +176,4 @@ test(stops, [forall(tree(Tree))]) :-
                motor_states(outB, []), motor_states(outC, []) )).
 test(needs_two_motors_of_one_type, [forall(tree(Tree)), fail]) :-
     on(Tree, set_robot(5.6, 10.6, outA, outB)).
-
 :- end_tests(robot).

@@ -12,7 +12,6 @@ in_tree(Tree, Goal) :-
     on(Tree, ( equip(Tree, ['lego-ev3-battery'-battery]), Goal )).
 
 :- begin_tests(battery).
-
 test(tells_what_it_knows, [forall(tree(Tree))]) :-
     in_tree(Tree, ( battery(voltage, Volts), float(Volts), near(Volts, 7.8, 0.3),
                     battery(current, Amperes), float(Amperes), near(Amperes, 0.18, 0.02),
@@ -64,5 +63,4 @@ test(a_chemistry_of_which_nothing_is_known_fails, [fail]) :-
     powered('lego-ev3-battery', [technology='Pb'], battery(percent, _)).
 test(what_is_no_number_throws, error(syntax_error(attribute), _)) :-
     powered('lego-ev3-battery', [voltage_now=much], battery(voltage, _)).
-
 :- end_tests(battery).

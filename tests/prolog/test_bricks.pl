@@ -40,7 +40,6 @@ current_name(Name) :-
     use_brick(Name).
 
 :- begin_tests(bricks).
-
 test(a_program_starts_with_local, true(Names == [local-local])) :-
     findall(Name-Where, brick(Name, Where), Names).
 test(a_world_that_was_asked_for_is_not_announced, [true(Said == [])]) :-
@@ -222,7 +221,6 @@ test(local_has_other_names, true(Name == local)) :-
         brick_open(here, local),
         with_brick(here, current_name(Name)),
         brick_close(here)).
-
 :- end_tests(bricks).
 
 round_(Number, Integer) :-
@@ -260,7 +258,6 @@ note_event :-
     nb_setval(happened, Now).
 
 :- begin_tests(bricks_bad_input).
-
 test(wrong, [ forall(member(Goal-Error,
                             [ brick_open(_, sim)-instantiation_error,
                               brick_open(7, sim)-type_error(atom, 7),
@@ -287,7 +284,6 @@ test(wrong, [ forall(member(Goal-Error,
 test(one_name_for_one_brick,
      throws(error(permission_error(open, brick, anna), _))) :-
     with_bricks([anna], brick_open(anna, sim)).
-
 :- end_tests(bricks_bad_input).
 
 % Two robots that look at each other, 60 cm apart.
@@ -314,7 +310,6 @@ place(Name, X-Y) :-
     maplist(round_, [X0, Y0], [X, Y]).
 
 :- begin_tests(robots).
-
 test(each_is_a_brick_at_its_place, true([A, B, Here] == [0-0, 0-60, local])) :-
     with_duel(( place(anna, A), place(bob, B), current_name(Here) )).
 test(they_see_each_other, true(D-E == 45-45)) :-
@@ -413,7 +408,6 @@ test(wrong_messages,
                        robot_receive(_, _, [until(1)])-domain_error(receive_option, until(1)) ])),
        error(Formal) ]) :-
     Goal.
-
 :- end_tests(robots).
 
 % Another program, with the brick bob, does this.
@@ -450,7 +444,6 @@ answered_at_last(Term, Answer) :-
 :- ( exists_source(library(redis)) -> use_module(library(redis), [redis/3]) ; true ).
 
 :- begin_tests(robots_joined, [condition(can_use_redis)]).
-
 test(a_message_goes_and_one_comes, From-X =@= bob-f("a b", 'C', [_])) :-
     with_redis_server(Port,
       with_other(Port, "robot_receive(F, ping(X), []), robot_send(F, pong(X))",
@@ -505,5 +498,4 @@ test(who_cannot_join,
     Goal.
 test(one_joins_once, error(permission_error(join, redis, _))) :-
     with_redis_server(Port, joined(Port, robots_join(redis(localhost:Port)))).
-
 :- end_tests(robots_joined).

@@ -9,7 +9,6 @@ down(Keys) :-
     findall(Key, button(Key), Keys).
 
 :- begin_tests(button).
-
 test(is_true_of_keys_that_are_down,
      [ forall(tree(Tree)),
        true(Seen == [[], [up, enter], [enter], []])
@@ -58,7 +57,6 @@ test(a_key_that_is_no_atom, error(type_error(atom, 1), _)) :-
 :- end_tests(button).
 
 :- begin_tests(button_wait).
-
 %   What is waited for while Other happens in another thread, some time after
 %   the wait began. The last that Other does is what is waited for: after that
 %   there may be no keys any more.
@@ -134,11 +132,9 @@ test(options_that_are_no_list, error(type_error(list, 5), _)) :-
     with_keys([], button_wait(up, pressed, 5)).
 test(an_option_that_is_none, error(domain_error(button_option, tmeout(0)), _)) :-
     with_keys([], button_wait(up, pressed, [tmeout(0)])).
-
 :- end_tests(button_wait).
 
 :- begin_tests(button_events).
-
 play(Tree, Keys) :-
     forall(member(Key, Keys), ( press(Tree, Key), release(Tree, Key) )).
 
@@ -187,5 +183,4 @@ test(can_be_interrupted, [forall(tree(Tree)), true(E == time_limit_exceeded)]) :
              catch(call_with_time_limit(0.05, Events = [_|_]), E, true) )).
 test(fails_without_keys, fail) :-
     with_dev([], button_events(_)).
-
 :- end_tests(button_events).

@@ -61,7 +61,6 @@ measured_turn(H0, Degrees) :-
     Degrees is (round(H - H0) mod 360).
 
 :- begin_tests(calibration).
-
 test(by_the_gyro_squares_get_five_times_better) :-
     each_seed([S]>>( uncalibrated(S, true, Robot),
                      drives(S, Robot, gets_better(by_gyro)) )).
@@ -111,7 +110,6 @@ test(measures_the_wheels_and_not_what_the_gyro_has_taught) :-
     near(A, 10.9, 0.03).
 test(fails_without_gyro_and_measure, [fail]) :-
     quiet(false, calibrate(axle, [], _)).
-
 :- end_tests(calibration).
 
 figures(set_robot(D, A, _, _), D, D, A).

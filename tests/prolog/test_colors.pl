@@ -8,7 +8,6 @@ shows(Port, R, G, B) :-
     put_attribute(Port, value2, B).
 
 :- begin_tests(color_name).
-
 test(names_each_color_that_the_sensor_tells,
      all(N-Name == [0-none, 1-black, 2-blue, 3-green, 4-yellow, 5-red, 6-white, 7-brown])) :-
     color_name(N, Name).
@@ -16,11 +15,9 @@ test(knows_the_number_of_a_name, all(N == [3])) :-
     color_name(N, green).
 test(there_is_no_eighth, fail) :-
     color_name(8, _).
-
 :- end_tests(color_name).
 
 :- begin_tests(rgb, [cleanup(retractall(ev3dev_colors:white(_, _, _, _, _)))]).
-
 test(percentages_are_of_the_calibrated_white,
      true(RGB == rgb(50, 100, 25))) :-
     with_tree(plain, ( shows(in2, 200, 300, 160),
@@ -45,5 +42,4 @@ test(the_color_as_hue_saturation_and_value,
     with_tree(plain, ( shows(in3, R, G, B), once(col_hsv(in3, Seen)) )).
 test(the_simulated_floor_is_white_once_it_is_calibrated, true(Seen == rgb(100, 100, 100))) :-
     with_sim([], ( col_white(in2), once(col_rgb(in2, Seen)) )).
-
 :- end_tests(rgb).

@@ -164,7 +164,6 @@ same_compiled_or_not(Goal) :-
     assertion(Compiled == Sources).
 
 :- begin_tests(compile, [setup(make_compiled_copy), cleanup(delete_copy)]).
-
 test(is_used, Origin == "compiled") :-
     origin(Origin).
 test(is_used_by_an_absolute_name, Origin == "compiled") :-
@@ -348,11 +347,9 @@ test(is_not_made_by_who_has_loaded_the_pack, Found == 0-permission_error) :-
         Status-Text),
     atom_string(Atom, Text),
     Found = Status-Atom.
-
 :- end_tests(compile).
 
 :- begin_tests(compile_not, [setup(make_copy), cleanup(delete_copy)]).
-
 test(then_the_sources_are_used, Origin == "sources") :-
     origin(Origin).
 test(a_folder_that_cannot_be_written_is_an_error,
@@ -363,5 +360,4 @@ test(a_folder_that_cannot_be_written_is_an_error,
     assertion(Status \== 0),
     assertion(sub_string(Text, _, _, _, "compiled")),
     origin(Origin).
-
 :- end_tests(compile_not).

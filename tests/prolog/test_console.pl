@@ -13,7 +13,6 @@ looks_like(Lines) :-
     Shown == Drawn.
 
 :- begin_tests(console, [setup(screen_forget), cleanup(screen_forget)]).
-
 test(texts_are_lines_one_below_the_other) :-
     with_sim(room, ( screen_forget, screen_print('Hello'), screen_print(f(1, 'B')),
                      screen_format("~1f cm", [84.26]),
@@ -37,5 +36,4 @@ test(a_wrong_format_throws, error(_, context(screen_format/2, _))) :-
     with_sim(room, screen_format("~d", [a])).
 test(an_unbound_format_throws, error(instantiation_error, context(screen_format/2, _))) :-
     with_sim(room, screen_format(_, [])).
-
 :- end_tests(console).

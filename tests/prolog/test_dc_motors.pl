@@ -12,7 +12,6 @@ plain(Goal) :-
     with_tree(plain, [outA-'rcx-motor'], once(Goal)).
 
 :- begin_tests(dc_motor).
-
 test(is_found, [forall(tree(Tree)), true(Ports == [outA])]) :-
     in_tree(Tree, ( findall(P, dc_motor(P), Ports), dc_motor('ev3-ports:outA') )).
 test(is_in_the_table_of_devices, [forall(tree(Tree))]) :-
@@ -26,11 +25,9 @@ test(is_in_the_table_of_devices, [forall(tree(Tree))]) :-
     !.
 test(is_no_other_motor, [forall(tree(Tree)), fail]) :-
     in_tree(Tree, ( tacho_motor(outA) ; dc_motor(outB) )).
-
 :- end_tests(dc_motor).
 
 :- begin_tests(dc_motor_run).
-
 test(runs_until_it_is_stopped, [forall(behaving(Tree)), true(Ss-D == []-0)]) :-
     in_tree(Tree, ( dc_motor_run(outA, 60), sim_step(0.15),
                     dc_motor_states(outA, [running]), dc_motor_duty(outA, 60),
@@ -74,11 +71,9 @@ test(what_is_no_number_throws,
                        dc_motor_run_direct(outA, _)-instantiation_error ])),
        true(E-W == caught-[]) ]) :-
     plain(( catch(Goal, error(Error, _), E = caught), written(outA, W) )).
-
 :- end_tests(dc_motor_run).
 
 :- begin_tests(dc_motor_run_timed).
-
 test(waits_and_stops, [forall(behaving(Tree)), true(Ss == [])]) :-
     in_tree(Tree, ( sim_time(T0), dc_motor_run_timed(outA, 50, 1/2),
                     took(Tree, T0, 0.5, 0.15),
@@ -135,11 +130,9 @@ test(a_wrong_argument_throws_and_writes_nothing,
     plain(( catch(dc_motor_run_timed(outA, 50, Seconds, Options), error(Error, _),
                   E = caught),
             written(outA, W) )).
-
 :- end_tests(dc_motor_run_timed).
 
 :- begin_tests(dc_motor_stop).
-
 test(stops_as_asked,
      [ forall(( tree(Tree), member(Action, [coast, brake]) )) ]) :-
     in_tree(Tree, ( dc_motor_run(outA, 50), dc_motor_stop(outA, Action),
@@ -170,11 +163,9 @@ test(at_the_end_of_the_program,
     plain(( tree_root(Root),
             run_program(Text, [env('EV3DEV_SYSFS'=Root), goal(main)], exit(0), _),
             get_attribute(outA, command, C) )).
-
 :- end_tests(dc_motor_stop).
 
 :- begin_tests(dc_motor_settings).
-
 test(polarity, [forall(tree(Tree)), true([P1, P2] == [normal, inversed])]) :-
     in_tree(Tree, ( dc_motor_polarity(outA, P1), dc_motor_polarity(outA, inversed),
                     dc_motor_polarity(_, P2) )).
@@ -201,5 +192,4 @@ test(the_stop_action_cannot_be_read,
      [ forall(behaving(Tree)),
        error(permission_error(read, attribute, _), _) ]) :-
     in_tree(Tree, dc_motor_attribute(outA, stop_action, _)).
-
 :- end_tests(dc_motor_settings).

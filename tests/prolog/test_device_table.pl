@@ -1,7 +1,6 @@
 :- use_module('../support/trees').
 
 :- begin_tests(ev3_devices).
-
 test(prints_each_device_with_what_it_reads, [forall(tree(Tree))]) :-
     with_tree(Tree, ( put_attribute(in1, value0, 843),
                       put_attribute(outB, position, 720),
@@ -22,7 +21,6 @@ test(says_that_there_is_nothing_and_where_it_looked, [forall(tree(Tree))]) :-
                 with_output_to(string(Text), ev3_devices) )),
     assertion(sub_string(Text, _, _, _, "Nothing")),
     assertion(sub_string(Text, _, _, _, Root)).
-
 :- end_tests(ev3_devices).
 
 % A line of the table holds all these words, the first one at its start.

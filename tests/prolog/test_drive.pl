@@ -30,7 +30,6 @@ any_move(Move) :-
     an_endless_move(Move).
 
 :- begin_tests(bad_input).
-
 test(nothing_can_be_done_without_a_robot,
      [forall(( any_move(Move), with_options(Move, [], Goal)
              ; member(Goal, [ turn(20, 0), face(0), follow([]),
@@ -157,7 +156,6 @@ test(options_of_the_robot_are_checked,
     with_tree(plain, catch(set_robot(5.6, 10.6, outB, outC, Options),
                            error(Formal, _), Caught = caught)),
     subsumes_term(Error, Formal).
-
 :- end_tests(bad_input).
 
 take_out(plain, Port) :-
@@ -172,7 +170,6 @@ take_out(mount, Port) :-
 % ---------------- EARLY ENDS
 
 :- begin_tests(early_ends).
-
 test(nothing_moves_then_it_is_stalled,
      [forall(( a_move(Move), Move \= follow(_) )), true(R-C == stalled-(stop-stop))]) :-
     with_options(Move, [reason(R)], Goal),
@@ -253,7 +250,6 @@ test(drive_wait_stops_nothing, true(R-S == timeout-[running])) :-
     quiet(false, ( arc(30, 20),
                    drive_wait([timeout(0.5)], R),
                    motor_states(outB, S) )).
-
 :- end_tests(early_ends).
 
 %   Pull a wire at a moment of the simulated time, and wait for the end.
@@ -276,7 +272,6 @@ at(X, Y, Heading) :-
     ( Heading =:= 180, H0 < 0 -> near(H0, -180, 1) ; near(H0, Heading, 1) ).
 
 :- begin_tests(moves).
-
 test(each_ends_where_it_should,
      [forall(( member(Gyro, [true, false]),
                member(Move-[X, Y, H],
@@ -414,7 +409,6 @@ test(waits_no_longer_than_needed, true(R == reached)) :-
                   memberchk(running, S0),
                   drive_wait([], R),
                   at(0, 20, 0) )).
-
 :- end_tests(moves).
 
 ramp_up(Port, Ms) :-
@@ -447,7 +441,6 @@ radius(X1-Y1, X2-Y2, X3-Y3, R) :-
 % ---------------- THE ROBOT
 
 :- begin_tests(robot).
-
 test(unequal_wheels_and_an_inverted_motor,
      [forall(( member(Move-[X, Y, H],
                       [ go_cm(30, 50, [])-[0, 50, 0], turn(20, 90, [])-[0, 0, 90],
@@ -476,7 +469,6 @@ test(go_and_turn_without_this_library_know_of_it, true(S == '525'-'-525')) :-
                 get_attribute(outB, speed_sp, L),
                 get_attribute(outC, speed_sp, R),
                 S = L-R )).
-
 :- end_tests(robot).
 
 % ---------------- ACCURACY
@@ -486,7 +478,6 @@ test(go_and_turn_without_this_library_know_of_it, true(S == '525'-'-525')) :-
 % 0.02 degrees a second.
 
 :- begin_tests(accuracy).
-
 test(two_metres_straight_with_gyro) :-
     each_seed([S]>>noisy(S, true, ( sim_step(10), go_cm(30, 200), beside(1) ))).
 test(two_metres_straight_with_gyro_at_once_by_exact_encoders) :-
@@ -534,7 +525,6 @@ test(ten_places_by_wheels_that_slip, [forall(a_slip(Slip))]) :-
     each_seed([S]>>slipping(S, Slip, true, ten_places(8, 3))).
 test(ten_places_and_back_without_noise, [forall(member(Gyro, [true, false]))]) :-
     quiet(Gyro, ten_places_and_back).
-
 :- end_tests(accuracy).
 
 beside(Cm) :-
@@ -570,7 +560,6 @@ ten_places_and_back :-
 % ---------------- RUNS
 
 :- begin_tests(runs).
-
 ends(Seed, End) :-
     noisy(Seed, true, ( follow([[30, 40], [60, 0], [0, 0]], [radius(8)]),
                         arc(40, 20), sim_step(1.5), stop, sim_step(1),
@@ -588,7 +577,6 @@ test(nothing_is_called_when_the_robot_rests, true(T1 == T0)) :-
     % Each look at a file would take its time.
     quiet(true, ( go_cm(30, 10, [stop_action(brake)]), sim_step(3),
                   sim_time(T0), sim_step(0), sim_time(T1) )).
-
 :- end_tests(runs).
 
 % ---------------- EXAMPLES
@@ -597,7 +585,6 @@ test(nothing_is_called_when_the_robot_rests, true(T1 == T0)) :-
                          load_files(Name:example(Name), []))).
 
 :- begin_tests(examples).
-
 test(square_returns_to_its_start,
      [forall(member(Options, [[], [noise(true)]]))]) :-
     with_sim([],
@@ -639,7 +626,6 @@ test(line_following_gets_around) :-
              near(Nearest, 0, 5) )).
 test(line_following_stands_when_it_is_interrupted) :-
     with_sim(line, ( for_seconds(5, line_following:start), at_rest )).
-
 :- end_tests(examples).
 
 %   Where the robot was when it passed a pole.
@@ -651,7 +637,6 @@ beside_pole(Trace, Y, Side) :-
 % ---------------- COST
 
 :- begin_tests(cost).
-
 %   Threads of ours over real files, and what signals they block.
 drive_threads(Blocked) :-
     expand_file_name('/proc/self/task/*', Tasks),
@@ -691,11 +676,9 @@ test(the_thread_takes_no_signals,
     Int is 1 << 1,
     Term is 1 << 14,
     Bits is Mask /\ (Int + Term).
-
 :- end_tests(cost).
 
 :- begin_tests(units).
-
 test(moves_and_their_speed_option_take_units,
      [ forall(member(Goal, [ arc_cm(cm_per_s(10), 10, 90), go_cm(rps(1), 20, []),
                              go_to(0, 20, [speed(cm_per_s(12))]), face(90, [speed(rpm(20))]) ])) ]) :-
@@ -709,5 +692,4 @@ test(what_is_no_number_throws,
      [ forall(member(Goal, [ go_cm(rps(a), 20, []), go_to(0, 20, [speed(cm_per_s(a))]) ])),
        error(type_error(evaluable, a/0), _) ]) :-
     with_sim([], ( set_robot(5.6, 10.6, outB, outC), Goal )).
-
 :- end_tests(units).

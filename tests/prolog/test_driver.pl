@@ -3,7 +3,6 @@
 % ---------------- DEVICES
 
 :- begin_tests(devices).
-
 test(motors_are_listed_in_port_order,
      [forall(tree(Tree)), all(P == [outA, outB, outC, outD])]) :-
     with_tree(Tree, [],
@@ -69,7 +68,6 @@ test(asking_for_devices_writes_nothing,
     with_tree(Tree, ( forall(tacho_motor(_, _, _), true),
                       forall(lego_sensor(_, _, _), true),
                       written(W) )).
-
 :- end_tests(devices).
 
 attribute_directory(Port, Directory) :-
@@ -92,7 +90,6 @@ add_file(Directory, Name, Text) :-
 % ---------------- ATTRIBUTES
 
 :- begin_tests(attributes).
-
 test(motor_attributes_are_read,
      [ forall(( tree(Tree),
                 member(Goal-Value,
@@ -209,11 +206,9 @@ test(a_value_has_a_number,
                          8-domain_error(sensor_value_index, 8) ]) )),
        error(Error, _) ]) :-
     with_tree(Tree, value(in1, Index, _)).
-
 :- end_tests(attributes).
 
 :- begin_tests(attribute_files).
-
 test(each_attribute_has_its_file,
      [ forall(( tree(Tree),
                 member(Goal-(Port/Attribute),
@@ -238,7 +233,6 @@ test(an_absent_device_has_no_file, [forall(tree(Tree)), fail]) :-
 test(a_value_file_needs_a_number,
      [forall(tree(Tree)), error(instantiation_error, _)]) :-
     with_tree(Tree, value_file(in1, _, _)).
-
 :- end_tests(attribute_files).
 
 % ---------------- REFUSED BY KERNEL
@@ -257,7 +251,6 @@ in_place_of(Port, Attribute, Target) :-
 
 :- begin_tests(refused_by_the_kernel,
                [ condition(( kernel_file(File), exists_file(File) )) ]).
-
 test(a_value_that_is_not_accepted_is_a_domain_error,
      [ forall(( tree(Tree),
                 member(Goal-(Attribute-Value),
@@ -279,13 +272,11 @@ test(the_message_names_the_file_and_gives_the_kernels_words,
     catch(file_write(File, foo), error(_, context(file_write/2, Message)), true),
     sub_atom(Message, _, _, _, File),
     !.
-
 :- end_tests(refused_by_the_kernel).
 
 % ---------------- UNPLUG AND REPLUG
 
 :- begin_tests(replug).
-
 test(a_motor_under_another_number_is_found_again,
      [forall(tree(Tree)), true(File1-V == File2-17)]) :-
     with_tree(Tree, ( position(outB, 0),
@@ -352,5 +343,4 @@ test(a_device_plugged_in_is_found_at_once, [forall(tree(Tree))]) :-
               ( \+ tacho_motor(outB),
                 plug(outB, 'lego-ev3-l-motor'),
                 tacho_motor(outB) )).
-
 :- end_tests(replug).

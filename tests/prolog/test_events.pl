@@ -55,7 +55,6 @@ messages(Goal, Messages) :-
 :- dynamic user:message_hook/3.
 
 :- begin_tests(on).
-
 test(it_happens_each_time_that_the_condition_becomes_true) :-
     noted([ 1-raise(a), 2-lower(a), 3-raise(a) ],
           ( on(up(a), note(up)), wait(5) ), Notes),
@@ -168,11 +167,9 @@ polls(Seconds) :-
     ev3_time(Time),
     Time >= Seconds,
     !.
-
 :- end_tests(on).
 
 :- begin_tests(times).
-
 test(every_keeps_its_rhythm) :-
     noted([], ( every(1, note(tick)), wait(3.5) ), Notes),
     times(Notes, tick, Times),
@@ -203,11 +200,9 @@ test(cancel_ends_one_or_all, true(Left == [])) :-
 test(a_move_that_an_action_interrupts_goes_on) :-
     noted([], ( every(1, tone(440, 300)), go_cm(20, 40), sim_pose(X, Y, _) ), _),
     near(sqrt(X*X + Y*Y), 40, 1.0).
-
 :- end_tests(times).
 
 :- begin_tests(until).
-
 test(a_move_is_left, true(Which == condition)) :-
     noted([1-raise(a)], ( until(up(a), go_cm(20, 500), Which), at_rest, ev3_time(T) ), _),
     near(T, 2, 0.1).
@@ -253,11 +248,9 @@ test(a_condition_must_not_wait, error(permission_error(wait, guard, until), _)) 
     noted([], until(wait(1), go(20)), _).
 test(an_error_of_the_goal_goes_through, error(type_error(_, _), _)) :-
     noted([], until(up(a), atom_length(f(x), _)), _).
-
 :- end_tests(until).
 
 :- begin_tests(branches, [condition(current_predicate(system:engine_create/3))]).
-
 test(both_go_on_at_the_same_time) :-
     noted([], ( both(( wait(1), note(a), wait(2), note(b) ), ( wait(2), note(c) )),
                 ev3_time(T) ), Notes),
@@ -393,13 +386,11 @@ test(waits_do_not_add_up) :-
     noted([], ( both(go_cm(20, 40), forall(between(1, 10, _), wait(0.1))), ev3_time(T) ), _),
     noted([], ( go_cm(20, 40), ev3_time(Alone) ), _),
     near(T, Alone, 0.05).
-
 :- end_tests(branches).
 
 % ---------------- PROMPT
 
 :- begin_tests(prompt).
-
 %   A toplevel that has loaded this.
 program(Tree, Text) :-
     format(string(Text),
@@ -535,5 +526,4 @@ is_stopped(Toplevel) :-
     type(Toplevel, "do([( tell(waits), thread_create(stop_program, _, []), wait(900), tell(no) )]).\n"),
     shows(Toplevel, "waits"),
     shows(Toplevel, "over").
-
 :- end_tests(prompt).

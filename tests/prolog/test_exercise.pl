@@ -87,7 +87,6 @@ reason(Names, Reasons) :-
     findall(Reason, member(mark(_, _, _, _, _, Reason), Marks), Reasons).
 
 :- begin_tests(exercise, [condition(starts_itself)]).
-
 test(honest, Marks == [ mark(honest, 10, 10,
                              [ score(drives, 4, 4, 0), score('drives far', 2, 2, 0),
                                score('touches <nothing>', 4, 4, 0) ],
@@ -328,5 +327,4 @@ test(wrong_option, error(domain_error(exercise_option, seed(1)))) :-
     exercise_mark(nowhere, [], [seed(1)], _).
 test(no_exercise_file, error(existence_error(source_sink, nowhere))) :-
     exercise_mark(nowhere, [], [], _).
-
 :- end_tests(exercise).

@@ -3,7 +3,6 @@
 :- use_module('../support/trees').
 
 :- begin_tests(ev3_dev).
-
 test(is_told, true(Dev == Expected)) :-
     with_dev([], ( ev3_dev(Dev), dev_path('', Path) )),
     atom_concat(Expected, /, Path).
@@ -47,11 +46,9 @@ test(must_be_a_directory,
     ev3_dev(Name).
 test(must_be_no_file, error(existence_error(directory, 'pack.pl'), _)) :-
     ev3_dev('pack.pl').
-
 :- end_tests(ev3_dev).
 
 :- begin_tests(ev3_sysfs).
-
 test(tells_the_tree_in_use, [forall(tree(Tree)), true(Same == true)]) :-
     with_tree(Tree, ( tree_root(Root),
                       ev3_sysfs(Directory),
@@ -78,11 +75,9 @@ test(another_tree_stops_the_motors_of_the_one_before,
                       ev3_sysfs('/'),
                       get_attribute(outB, command, C),
                       get_attribute(outC, command, D) )).
-
 :- end_tests(ev3_sysfs).
 
 :- begin_tests(subsystem_detect).
-
 test(finds_what_matches,
      [forall(tree(Tree)), all(P == [outA, outB, outC, outD])]) :-
     with_tree(Tree, ( pattern('tacho-motor/motor*', Pattern),
@@ -118,7 +113,6 @@ test(a_malformed_pattern_throws,
      [ forall(( tree(Tree), member(Pattern, ['[a', '***']) )),
        error(domain_error(file_name_pattern, Pattern), _) ]) :-
     with_tree(Tree, subsystem_detect(_, _, _, Pattern)).
-
 :- end_tests(subsystem_detect).
 
 attribute_directory(Port, Directory) :-
@@ -130,7 +124,6 @@ pattern(Pattern0, Pattern) :-
     atomic_list_concat([Root, Pattern0], /, Pattern).
 
 :- begin_tests(files).
-
 test(file_read_gives_the_value,
      [ forall(( tree(Tree),
                 member(Text-Value,
@@ -190,5 +183,4 @@ test(a_file_that_is_no_name_throws,
      [ forall(member(File, [1, f(x), [a], []])),
        error(type_error(atom, File), context(file_read/2, _)) ]) :-
     file_read(File, _).
-
 :- end_tests(files).

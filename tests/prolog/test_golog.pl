@@ -16,7 +16,6 @@
 % ConGolog (2000); [I] De Giacomo, Lesperance, Levesque, Sardina: IndiGolog
 % (2009).
 :- begin_tests(golog_programs).
-
 test(nothing_is_final_and_takes_no_step, Steps == []) :- % [C] nil
     lab_final([]),
     steps([], Steps).
@@ -114,11 +113,9 @@ test(for_over_nothing_is_final) :-
     lab_final(for(r, [], set_to(r))).
 test(for_over_the_value_of_a_fluent, Runs == [[set_to(1), set_to(2)]]) :-
     runs(for(r, list, set_to(r)), Runs).
-
 :- end_tests(golog_programs).
 
 :- begin_tests(golog_concurrent).
-
 test(conc_interleaves, Steps == [conc([], b)-[a], conc(a, [])-[b]]) :- % [C]
     steps(conc(a, b), Steps).
 test(conc_runs, Runs == [[a, b, c], [a, c, b], [c, a, b]]) :-
@@ -192,11 +189,9 @@ test(rconc_of_a_list_has_all_orders, Count == 6) :-
     length(Sorted, Count).
 test(sync_takes_the_same_action, Runs == [[a, b]]) :-
     runs(sync([[a, ndet(b, c)], [?(true), a, b]]), Runs).
-
 :- end_tests(golog_concurrent).
 
 :- begin_tests(golog_more).
-
 test(wndet_takes_the_first, Runs == [[a]]) :-           % [I]
     runs(wndet(a, b), Runs).
 test(wndet_takes_the_second_if_it_must, Runs == [[b]]) :-
@@ -240,7 +235,6 @@ test(time_is_its_program, Runs == [[a, b]]) :-
     runs([time(a, 10), ttime(b, 10)], Runs).
 test(printing_the_history_is_a_step, Steps == [[]-[a]]) :-
     steps(?(printHistory), [a], Steps).
-
 :- end_tests(golog_more).
 
 % ---------------- EACH ONE
@@ -358,7 +352,6 @@ trans_of(either(a), no, [[]-[a], []-[c]]).                      % [C] procedures
 trans_of(off(_), no, [[]-[off(1)], []-[off(3)]]).               % [C] action
 
 :- begin_tests(golog_each).
-
 test(all_solutions_of_trans, [ forall(trans_of(Program, _, Steps)),
                                true(Found =@= Wanted) ]) :-
     steps(Program, Found0),
@@ -380,7 +373,6 @@ test(each_construct_is_there, Missing == []) :-
               functor(Program, Name, Arity),
               \+ trans_of(Program, _, _) ),
             Missing).
-
 :- end_tests(golog_each).
 
 % ---------------- LAWS FOR EACH
@@ -465,7 +457,6 @@ beside(E, C, prioritized_interrupts([C, never, E])).
 
 :- begin_tests(golog_laws,
                [cleanup(retractall(ev3dev_golog_search:replanned_(_)))]).
-
 test(each_construct_has_a_whole, Missing == []) :-
     findall(E,
             ( ( ev3dev_golog_programs:construct(E)
@@ -589,13 +580,11 @@ part_of(E, Part) :-
     E \= '$path'(_, _, _, _),
     arg(_, E, A),
     part_of(A, Part).
-
 :- end_tests(golog_laws).
 
 % ---------------- AGAINST THE AXIOMS
 
 :- begin_tests(golog_axioms).
-
 test(random_programs_have_the_histories_of_the_axioms,
      [Different, Enough, Rich] == [[], true, true]) :-
     findall(Same,
@@ -674,5 +663,4 @@ small_program(Seed, Program) :-
                                  interrupt(condition, [action, action]) ]),
                            search(program), ab, down(1), again(2) ]),
                    Program).
-
 :- end_tests(golog_axioms).

@@ -13,7 +13,6 @@ exogenous(Actions) :-
     forall(member(A, Actions), assertz(golog_lab:next_exog(A))).
 
 :- begin_tests(golog_online).
-
 test(actions_are_executed, As == [a, b]) :-
     online([a, b], [], _),
     golog_lab:executed(As).
@@ -122,7 +121,6 @@ sensing(Action, Value, Program, Run) :-
         asserta(golog_lab:sensed_value(Action, Value)),
         online(Program, [], Run),
         retractall(golog_lab:sensed_value(_, _))).
-
 :- end_tests(golog_online).
 
 user:event(E) :-
@@ -130,7 +128,6 @@ user:event(E) :-
     nb_setval(golog_events, [E|Es]).
 
 :- begin_tests(golog_exogenous).
-
 test(they_enter_before_the_next_step, Run == [ring, b]) :-
     retractall(golog_lab:next_exog(_)),
     exogenous([ring]),
@@ -261,7 +258,6 @@ with_domain_of_calls(N, H) :-
                           interrupt(neg(done(call(N))), wait) ]),
                     [ history(H),
                       trace(user:call_after(off(3), call(N))) ]).
-
 :- end_tests(golog_exogenous).
 
 user:go_once :-
@@ -290,7 +286,6 @@ user:call_after(A, Exog, E) :-
     ).
 
 :- begin_tests(golog_world).
-
 test(execute_3_has_the_history, Seen == [b-[a], a-[]]) :-
     nb_setval(golog_seen, []),
     with_domain([ prim_action(a), prim_action(b), poss(_, true),
@@ -420,7 +415,6 @@ test(a_controller_is_run, H == [b]) :-
     with_domain([prim_action(b), poss(b, true), proc(mainControl(2), b),
                  controller(2), execute(_, _)], M, indigolog(M:_)),
     now(H).
-
 :- end_tests(golog_world).
 
 user:seen_action(A) :-
@@ -445,7 +439,6 @@ user:device(eye, Code, raw(5)) :-
     seen_action(eye-Code).
 
 :- begin_tests(golog_why_not).
-
 %   After one step of Program, at its place Limit; the answer for each Action
 
 why_not_after(Program, Limit, Action, Why) :-
@@ -518,7 +511,6 @@ test(it_is_said_in_words,
     ->  Said = true
     ;   Said = Line
     ).
-
 :- end_tests(golog_why_not).
 
 user:asks_why_not(A, E) :-
@@ -532,7 +524,6 @@ user:asks_why_not(A, E) :-
 :- op(700, xfy, &).
 
 :- begin_tests(golog_wrong).
-
 test(no_poss_for_an_action,
      [error(existence_error(golog_precondition, a/1),
             context(do/2, 'prim_action(a/1): the action a/1 has no precondition: there is no \c
@@ -662,5 +653,4 @@ wrong(?(f = 1), 4, 'prim_fluent(f)').
 wrong(round, 7, 'proc(round)').
 wrong(go_on, 8, 'proc(go_on)').
 wrong(wait_for_rain, 9, 'proc(wait_for_rain)').
-
 :- end_tests(golog_wrong).

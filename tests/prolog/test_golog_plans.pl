@@ -15,7 +15,6 @@ user:nap :-
     sleep(0.2).
 
 :- begin_tests(golog_search).
-
 test(search_takes_the_way_that_ends, H == [b]) :-       % [I] Sigma
     golog_lab:trans(search([ndet(a, b), ?(done(b)), c]), [], _, H),
     !.
@@ -127,11 +126,9 @@ test(an_elevator_of_eight_floors_and_six_calls_is_searched_in_time,
 test(achieve_plans_the_least_steps, Run == [all_off]) :-
     once(golog_lab:do(achieve(neg(some(x, light(x) = on))), H)),
     msort(H, Run).
-
 :- end_tests(golog_search).
 
 :- begin_tests(golog_conditional).
-
 plan_of(Program, Plan) :-
     golog_sensing:trans(searchc(Program), [], Plan, []),
     !.
@@ -258,11 +255,9 @@ follows(Program, H, Run) :-
 follows(Program, H, []) :-
     golog_sensing:trans(Program, H, Program1, H),
     follows(Program1, H, []).
-
 :- end_tests(golog_conditional).
 
 :- begin_tests(golog_conditions).
-
 test(and) :-
     true_in(and(n = 0, light(1) = on), []),
     true_in(and([n = 0, light(1) = on, true]), []),
@@ -332,11 +327,9 @@ test(prologs_own_connectives) :-
     true_in((n = 0, \+ n = 1), []),
     true_in((n = 1 ; n = 0), []),
     true_in((n = 0 -> true ; false), []).
-
 :- end_tests(golog_conditions).
 
 :- begin_tests(golog_domain).
-
 test(causes_val, V == 2) :-
     golog_lab:has_val(n, V, [up, down, up, up]).
 test(causes_true_and_false) :-
@@ -425,7 +418,6 @@ test(sensing_action, Fs == [weather, wind]) :-
     findall(F, golog_lab:sensing_action(look_twice, F), Fs).
 test(sensing_action_by_outcome, [true(F == warm), nondet]) :-
     golog_lab:sensing_action(feel, F).
-
 :- end_tests(golog_domain).
 
 % What is possible and what is known: Vassos: A feasible approach to disjunctive
@@ -433,7 +425,6 @@ test(sensing_action_by_outcome, [true(F == warm), nondet]) :-
 % IndiGolog (2005)
 
 :- begin_tests(golog_possible_values).
-
 known(P, H) :-
     golog_uncertain:holds(P, H).
 
@@ -617,7 +608,6 @@ uncertain_condition(Seed, P) :-
                            (full(a) -> up ; place < 2) ],
                          [?(condition)]),
                    ?(P)).
-
 :- end_tests(golog_possible_values).
 
 %   From floor 4 to calls on six of eight floors, by depth first search with a

@@ -11,7 +11,6 @@
 % Long runs, and runs with a robot.
 
 :- begin_tests(golog_long).
-
 %   A domain of an endless delivery
 
 delivery([ prim_action(go(P)), prim_action(take(P)), prim_action(give(P)),
@@ -126,7 +125,6 @@ test(effects_that_nothing_enumerates_take_no_more_memory,
                   statistics(globalused, Used) )),
     assertion([R1, R2] == [limit, limit]),
     Grown is Used-Used0.
-
 :- end_tests(golog_long).
 
 %   Note the inferences used so far at every five hundredth action.
@@ -209,7 +207,6 @@ follows_plan(Whole) :-
     memberchk(Name, [search, searchn, searchc, '$path']).
 
 :- begin_tests(golog_robot).
-
 test(an_action_moves_the_robot, true(near(Way, 40, 1))) :-
     with_rover(M, ( sim_pose(X0, Y0, _), indigolog(M:ahead),
                     sim_pose(X1, Y1, _) )),
@@ -529,5 +526,4 @@ runs_of_rover(H-T) :-
                     sim_press(enter, [after(1.3)]),
                     golog(M:[reactive, look], [history(H)]),
                     sim_time(T) )).
-
 :- end_tests(golog_robot).

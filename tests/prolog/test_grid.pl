@@ -154,7 +154,6 @@ wrong_in_narrow(Seed, Reason-Wrong) :-
     Reason-Wrong \== reached-[].
 
 :- begin_tests(worlds).
-
 test(the_walls_behind_a_cell_are_not_in_it, true(Wrong == [])) :-
     findall(Seed-Why,
             ( case(100, Seed), wrong_in_narrow(Seed, Why) ),
@@ -201,11 +200,9 @@ test(cells_may_be_wider_and_the_origin_elsewhere) :-
                sim_collisions(Collisions) )),
     Color == 5,
     Collisions == [].
-
 :- end_tests(worlds).
 
 :- begin_tests(on_the_way).
-
 %   The robot and a grid without walls; then Goal.
 :- meta_predicate in_open(+, +, 0).
 
@@ -370,11 +367,9 @@ test(what_is_behind_the_middle_of_a_diagonal_cell_is_in_it,
             ( ignore(execute_plan([right, move])),
               findall(C, obstructed(C), Seen),
               sim_collisions(Collisions) )).
-
 :- end_tests(on_the_way).
 
 :- begin_tests(no_way).
-
 :- dynamic said/1.
 
 :- multifile user:message_hook/3.
@@ -465,11 +460,9 @@ test(a_plan_without_a_grid, fail) :-
                    execute_plan([left]) )).
 test(no_grid_without_a_robot, fail) :-
     with_sim([], ( robot, sim_unplug(outB), sim_step(2), set_grid([]) )).
-
 :- end_tests(no_way).
 
 :- begin_tests(own_planners).
-
 :- use_module(example(grid_planner)).
 
 cell([X, Y]) :-
@@ -520,11 +513,9 @@ test(a_planner_that_is_none, error(domain_error(planner, dowsing), _)) :-
     in_room([], plan_and_go_to([0,2], _, [planner(dowsing)])).
 test(a_planner_that_is_a_number, error(domain_error(planner, 7), _)) :-
     in_room([], plan_and_go_to([0,2], _, [planner(7)])).
-
 :- end_tests(own_planners).
 
 :- begin_tests(fading).
-
 %   A corridor with a box in it.
 corridor(Options, Goal) :-
     with_sim([bounds(-15, -15, 15, 75)],
@@ -572,11 +563,9 @@ test(time_is_that_of_the_tree, Passed =:= 7) :-
 test(what_is_known_from_the_start_does_not_fade) :-
     corridor([fade(1), obstacles([[0,1]])],
              ( sim_step(10), obstructed([0,1]) )).
-
 :- end_tests(fading).
 
 :- begin_tests(execute_plan).
-
 in_room(Cells, Goal) :-
     boxes(Cells, Boxes),
     with_sim([bounds(-15, -15, 75, 75)|Boxes],
@@ -620,11 +609,9 @@ test(unbound_action, error(instantiation_error, _)) :-
     in_room([], execute_plan([_])).
 test(no_list, error(type_error(list, move), _)) :-
     in_room([], execute_plan(move)).
-
 :- end_tests(execute_plan).
 
 :- begin_tests(bad_input).
-
 %   What is refused leaves everything as it is.
 
 refused(Options, Error) :-
@@ -678,11 +665,9 @@ test(obstacle_is_no_cell, error(domain_error(grid_cell, x), _)) :-
     obstacle_add(x).
 test(obstacle_is_unbound, error(instantiation_error, _)) :-
     obstacle_remove(_).
-
 :- end_tests(bad_input).
 
 :- begin_tests(drawn).
-
 %   A drawing is the same as a world and as a grid with cells as wide: the robot
 %   starts in the same place.
 
@@ -725,11 +710,9 @@ refusal(Goal, Refusal) :-
         )
     ;   Refusal = fails
     ).
-
 :- end_tests(drawn).
 
 :- begin_tests(grid_navigation).
-
 navigate(World, [X, Y], Output, Result) :-
     with_sim(World,
              ( with_output_to(string(Output),
@@ -770,5 +753,4 @@ test(takes_any_planner,
                state_position(Cell, _)
              )),
     Cell == [3, 3].
-
 :- end_tests(grid_navigation).

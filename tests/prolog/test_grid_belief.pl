@@ -17,7 +17,6 @@ probability(belief(_, Pairs), State, P) :-
     memberchk(State-P, Pairs).
 
 :- begin_tests(grid_belief).
-
 test(is_a_picture, true(Count-Blacks-Whites == 4-1-1)) :-
     % The margin, and three free cells: most probable, half so, impossible
     row(Map),
@@ -104,11 +103,9 @@ test(no_such_view, error(type_error(nonneg, -1))) :-
     row(Map),
     grid_belief(Map, Belief),
     grid_sense(-1, Belief, _).
-
 :- end_tests(grid_belief).
 
 :- begin_tests(grid_localize).
-
 boxes([[1,1], [0,3], [2,2], [2,3], [4,3], [3,5], [5,1], [6,4], [1,6], [5,6]]).
 
 lost(Seed, Cell, Direction, Goal) :-
@@ -192,5 +189,4 @@ total(belief(_, Pairs), Total) :-
 
 around(_, Done, _, left) :-
     nb_setval(done, [left|Done]).
-
 :- end_tests(grid_localize).

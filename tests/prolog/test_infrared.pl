@@ -27,7 +27,6 @@ beacons([beacon(0, 100, 1), beacon(50, 50, 3)],
         [0, 50, 0, -128, 19, 35, 0, -128]).
 
 :- begin_tests(ir_beacon).
-
 test(tells_heading_and_distance, [forall(tree(Tree)), true(H-D == 19-35)]) :-
     beacons(World, Values),
     with_ir(Tree, Values, World, ir_beacon(in1, 3, H, D)).
@@ -58,11 +57,9 @@ test(a_wrong_channel_throws_and_writes_nothing,
     with_ir(plain, [], [],
             ( catch(ir_beacon(in1, Channel, _, _), error(Caught, _), true),
               written(W) )).
-
 :- end_tests(ir_beacon).
 
 :- begin_tests(ir_remote).
-
 held(0,  []).
 held(1,  [red_up]).
 held(2,  [red_down]).
@@ -110,21 +107,17 @@ test(a_wrong_channel_throws,
                                       a-type_error(integer, a) ])),
        error(Error, _) ]) :-
     with_ir(plain, [], [], ir_remote(in1, Channel, _)).
-
 :- end_tests(ir_remote).
 
 :- begin_tests(ir_dist_cm).
-
 test(is_seventy_times_the_proximity,
      [ forall(tree(Tree)), true(abs(D - 35.0) < 0.5) ]) :-
     with_ir(Tree, [50], [wall(-50, 35.5, 50, 35.5)], ir_dist_cm(in1, D)).
 test(of_another_sensor_fails, [fail]) :-
     with_tree(plain, ir_dist_cm(in1, _)).
-
 :- end_tests(ir_dist_cm).
 
 :- begin_tests(ir_seeker).
-
 :- meta_predicate with_seeker(+, +, +, 0).
 
 with_seeker(Tree, Values, World, Goal) :-
@@ -156,11 +149,9 @@ test(a_wrong_light_throws,
                                     red-domain_error(ir_light, red) ])),
        error(Error, _) ]) :-
     with_seeker(plain, [], [], ir_seeker(in1, Light, _, _)).
-
 :- end_tests(ir_seeker).
 
 :- begin_tests(sim_remote).
-
 test(a_wrong_argument_throws,
      [ forall(member(Channel-Buttons-Error,
                      [ 0-[]-domain_error(ir_channel, 0),
@@ -207,5 +198,4 @@ test(an_impossible_world_throws,
                        loudness(200)-domain_error(possible_geometry, _) ])),
        error(Error, _) ]) :-
     with_sim([Fact], true).
-
 :- end_tests(sim_remote).

@@ -25,7 +25,6 @@ driven(Codes, Goal, Speeds) :-
                            Speeds) )).
 
 :- begin_tests(jog).
-
 test(arrow_keys_drive_and_space_stops,
      true(Speeds == [315, 315, -315, -315, -315, 315, 315, -315])) :-
     driven(`\e[A\e[B\e[D \eOCq`, jog, Speeds).
@@ -53,5 +52,4 @@ test(options_are_checked,
                                      sped(1)-domain_error(jog_option, _) ])),
        error(Error, context(jog/1, _)) ]) :-
     with_sim([], jog([Option])).
-
 :- end_tests(jog).

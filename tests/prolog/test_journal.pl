@@ -40,7 +40,6 @@ in_room(Goal) :-
 :- meta_predicate in_room(0).
 
 :- begin_tests(because).
-
 test(the_causes_of_a_command_are_its_innermost_first,
      [ forall(tree(Tree)), true(Causes == [inner, outer(1)]) ]) :-
     with_tree(Tree, ( because(because(motor_run(outB, 20), inner), outer(1)),
@@ -107,11 +106,9 @@ test(no_cause_is_kept_for_ever, true(Count =< 4100)) :-
     because(forall(between(1, 5000, N), because(true, n(N))), long),
     forall(between(1, 13000, N), because(true, n(N))),
     predicate_property(ev3dev_causes:cause(_, _, _), number_of_clauses(Count)).
-
 :- end_tests(because).
 
 :- begin_tests(why).
-
 test(a_motor_that_runs,
      [ forall(tree(Tree)),
        true(Command == tacho_motor('run-forever', [speed_sp(-315)])) ]) :-
@@ -199,11 +196,9 @@ test(a_servo_and_a_motor_without_rotation_sensor,
                 findall(What-C, member(command(_, What, C, _), Journal), Commands) )).
 test(what_is_no_name_throws, error(type_error(atom, 7), context(why/2, _))) :-
     why(7, _).
-
 :- end_tests(why).
 
 :- begin_tests(words).
-
 test(a_command_in_words, [ forall(sentence(Goal, What, Text)), true(Line == Text) ]) :-
     in_room(( wait(2), Goal, said(What, Line) )).
 
@@ -270,11 +265,9 @@ sentence(because(tones([tone(440, 100), tone(880, 100)]), song), sound,
          "the brick played 440 Hz 880 Hz at 2.01 s: song").
 sentence(because(say(hello), greeting), sound, "the brick said hello at 2.01 s: greeting").
 sentence(because(sound_stop, quiet), sound, "the brick was silenced at 2.01 s: quiet").
-
 :- end_tests(words).
 
 :- begin_tests(libraries).
-
 test(the_grid_says_its_plan, true(Steps == [plan(move, [0, 1]), plan(move, [0, 2])])) :-
     with_sim(grid,
              ( set_robot(5.6, 10.6, outB, outC), set_grid([]),
@@ -303,11 +296,9 @@ distinct([], []).
 distinct([X|Xs0], [X|Xs]) :-
     exclude(==(X), Xs0, Xs1),
     distinct(Xs1, Xs).
-
 :- end_tests(libraries).
 
 :- begin_tests(replay).
-
 :- meta_predicate replayed(0, -, -).
 
 almost(A, B) :-
@@ -483,11 +474,9 @@ message_to_codes_of(E, Text) :-
 
 message_to_lines(E, Lines) :-
     phrase('$messages':translate_message(E), Lines).
-
 :- end_tests(replay).
 
 :- begin_tests(journal).
-
 test(it_is_in_order, true(Times == Sorted)) :-
     in_room(( forall(between(1, 20, _), ( motor_run(outB, 20), motor_stop(outB, brake) )),
               journal(Journal),
@@ -504,5 +493,4 @@ test(a_file_that_cannot_be_written_throws,
     in_room(journal('/nowhere/at/all')).
 test(what_is_no_file_throws, error(type_error(atom, 7), context(journal/1, _))) :-
     journal(7).
-
 :- end_tests(journal).

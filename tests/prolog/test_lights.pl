@@ -35,7 +35,6 @@ chosen(File, Trigger) :-
     ).
 
 :- begin_tests(led).
-
 test(left_and_right, [forall(tree(Tree)), true(Lights == [left, right])]) :-
     lit(Tree, findall(L, led(L), Lights)).
 test(a_light_is_there_or_not, [forall(tree(Tree))]) :-
@@ -156,11 +155,9 @@ test(a_lamp_needs_an_output_port,
                                    _-instantiation_error ])),
        error(Error, _) ]) :-
     with_sim(room, sim_add(lamp(10, 10, 12, Port))).
-
 :- end_tests(led).
 
 :- begin_tests(led_trigger).
-
 test(none_at_first, [forall(tree(Tree)), true(Ts == [left-none, right-none])]) :-
     lit(Tree, findall(L-T, led_trigger(L, T), Ts)).
 test(what_there_is, [forall(tree(Tree))]) :-
@@ -193,11 +190,9 @@ test(a_trigger_is_an_atom, error(type_error(atom, 7), _)) :-
     leds(['led0:red:brick-status'], led_trigger(left, 7)).
 test(an_unbound_light_cannot_be_set, error(instantiation_error, _)) :-
     leds(['led0:red:brick-status'], led_trigger(_, none)).
-
 :- end_tests(led_trigger).
 
 :- begin_tests(led_blink).
-
 test(blinks, [forall(behaving(Tree)), true(T-On-Off == timer-200-800)]) :-
     lit(Tree, ( led(left, red), led_blink(left, 200, 800),
                 led_trigger(left, T), led_blink(left, On, Off),
@@ -243,5 +238,4 @@ test(what_is_no_time_throws_and_changes_nothing,
            written(W) )).
 test(an_unbound_light_cannot_be_set, error(instantiation_error, _)) :-
     leds(['led0:red:brick-status'], led_blink(_, 100, 100)).
-
 :- end_tests(led_blink).

@@ -31,7 +31,6 @@ is_right :-
     Degrees < 5.
 
 :- begin_tests(localize).
-
 %   With the EV3's table, too.
 test(one_look_around_is_enough, [forall(( member(Table, [false, true]),
                                           member(Place, [100-60, 250-200, 40-210]) ))]) :-
@@ -116,5 +115,4 @@ test(a_map_of_nothing, error(domain_error(possible_geometry, [start(0, 0, 0)]), 
 
 same_seed(X-Y-H) :-
     in_room(( localize_start(room, [seed(7)]), localize_scan, localized_pose(X, Y, H, _) )).
-
 :- end_tests(localize).

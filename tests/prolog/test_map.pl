@@ -15,7 +15,6 @@ in_world(World, Goal) :-
              [clock(virtual), noise(true)]).
 
 :- begin_tests(map).
-
 test(it_explores_the_room_and_makes_a_world_of_it, Reason-Collisions == explored-[]) :-
     in_room(( sim_pose(X, Y, Heading), set_pose(X, Y, Heading),
               explore([reason(Reason)]), sim_collisions(Collisions),
@@ -83,5 +82,4 @@ with_temporary(Extension, File, Goal) :-
     tmp_file(map, Base),
     atom_concat(Base, Extension, File),
     call_cleanup(Goal, catch(delete_file(File), _, true)).
-
 :- end_tests(map).

@@ -5,7 +5,6 @@ plain(Goal) :-
     with_tree(plain, [outB-'lego-ev3-l-motor'], once(Goal)).
 
 :- begin_tests(motor_position).
-
 test(is_read_in_degrees, [forall(tree(Tree)), true(Ps == [outA-0, outB-77, outC-0])]) :-
     on(Tree, ( motor_position(outB, 77), findall(P-D, motor_position(P, D), Ps) )).
 test(is_written_by_an_expression, true(P == '-90')) :-
@@ -22,11 +21,9 @@ test(what_is_none_throws,
                                    motor_position(7, _)-type_error(_, 7) ])),
        error(Error, _) ]) :-
     plain(Goal).
-
 :- end_tests(motor_position).
 
 :- begin_tests(motor_gear).
-
 test(is_none_at_first, [forall(tree(Tree)), true(Gs == [outA-1.0, outB-1.0, outC-1.0])]) :-
     on(Tree, findall(P-G, motor_gear(P, G), Gs)).
 test(is_of_its_port_alone_in_either_spelling,
@@ -72,21 +69,17 @@ test(a_wrong_ratio_throws_and_changes_nothing,
                                    motor_gear(7, _)-type_error(_, 7) ])),
        true(E-G == caught-1.0) ]) :-
     plain(( catch(Goal, error(Error, _), E = caught), motor_gear(outB, G) )).
-
 :- end_tests(motor_gear).
 
 :- begin_tests(motor_speed).
-
 test(is_read_in_degrees_a_second, [forall(tree(Tree)), true(Ss == [outA-0, outB-0, outC-0])]) :-
     on(Tree, findall(P-S, motor_speed(P, S), Ss)).
 test(counts_that_are_no_degrees, true(S == 45.0)) :-
     plain(( put_attribute(outB, count_per_rot, 720), put_attribute(outB, speed, 90),
             motor_speed(outB, S) )).
-
 :- end_tests(motor_speed).
 
 :- begin_tests(motor_settings).
-
 test(absent, [ forall(( tree(Tree),
                         member(Goal, [ motor_position(outD, _), motor_position(outD, 0),
                                        motor_speed(outD, _), motor_gear(outD, _),
@@ -140,5 +133,4 @@ test(what_cannot_be_throws_and_writes_nothing,
                        motor_hold_pid(_, pid(1, 2, 3))-instantiation_error ])),
        true(E-W == caught-[]) ]) :-
     plain(( catch(Goal, error(Error, _), E = caught), written(W) )).
-
 :- end_tests(motor_settings).

@@ -3,7 +3,6 @@
 :- use_module(library(ev3dev/events), [every/2, event_cancel/1]).
 
 :- begin_tests(each_predicate).
-
 test(fails_without_a_motor,
      [ forall(( tree(Tree),
                 member(Goal, [ motor_run(outB, 50), motor_run(outB, 50, 90),
@@ -19,13 +18,11 @@ test(throws_for_what_is_unbound,
                                motor_stop(_), motor_reset(_) ]) )),
        error(instantiation_error, _) ]) :-
     with_tree(Tree, Goal).
-
 :- end_tests(each_predicate).
 
 % ---------------- SPEED
 
 :- begin_tests(motor_run_2).
-
 test(sets_speed_in_percent_then_commands,
      [forall(tree(Tree)), true(W == [command='run-forever', speed_sp='525'])]) :-
     with_tree(Tree, ( motor_run(outB, 50),
@@ -54,11 +51,9 @@ test(throws_for_a_speed_that_is_no_number,
      [ forall(( tree(Tree), member(Speed, [fast, f(x), 1 + fast]) )),
        error(type_error(evaluable, _), _) ]) :-
     with_tree(Tree, motor_run(outB, Speed)).
-
 :- end_tests(motor_run_2).
 
 :- begin_tests(motors_run).
-
 test(runs_each_at_its_speed,
      [forall(tree(Tree)), true([B, C, D] == ['525', '-105', '0'])]) :-
     with_tree(Tree, ( motors_run([run(outB, 50), run(outC, -10)]),
@@ -97,21 +92,17 @@ test(what_is_no_run_throws_and_runs_none,
     with_tree(Tree, ( catch(motors_run([run(outC, 5)|Runs]), error(Error, _),
                             E = caught),
                       written(W) )).
-
 :- end_tests(motors_run).
 
 :- begin_tests(motor_start).
-
 test(runs_at_the_speed_set_before,
      [forall(tree(Tree)), true(W == [command='run-forever', speed_sp='300'])]) :-
     with_tree(Tree, ( speed_sp(outB, 300),
                       motor_start(outB),
                       written(outB, W) )).
-
 :- end_tests(motor_start).
 
 :- begin_tests(run_forever).
-
 test(takes_counts_a_second,
      [forall(tree(Tree)), true(W == [command='run-forever', speed_sp='-300'])]) :-
     with_tree(Tree, ( run_forever(outB, -600 / 2),
@@ -132,11 +123,9 @@ test(throws_for_what_is_no_number,
                                       fast-type_error(evaluable, _) ]) )),
        error(Error, _) ]) :-
     with_tree(Tree, run_forever(outB, Speed)).
-
 :- end_tests(run_forever).
 
 :- begin_tests(speed_adjust).
-
 test(is_the_papers_formula,
      [ forall(( tree(Tree),
                 member(Percent-Counts, [50-525, 33-346, -33-(-347), 0-0, 10*5-525]) )),
@@ -145,13 +134,11 @@ test(is_the_papers_formula,
 test(an_unbound_port_enumerates,
      [forall(tree(Tree)), all(P-S == [outA-780, outB-525, outC-525, outD-525])]) :-
     with_tree(Tree, speed_adjust(50, P, S)).
-
 :- end_tests(speed_adjust).
 
 % ---------------- STOP
 
 :- begin_tests(stop).
-
 test(brakes,
      [forall(tree(Tree)), true(W == [command=stop, stop_action=brake])]) :-
     with_tree(Tree, ( motor_stop(outB),
@@ -189,13 +176,11 @@ test(reset_is_left_to_the_motor,
      [forall(tree(Tree)), true(W == [command=reset])]) :-
     with_tree(Tree, ( motor_reset(outB),
                       written(outB, W) )).
-
 :- end_tests(stop).
 
 % ---------------- MOVES
 
 :- begin_tests(motor_run_3).
-
 test(writes_what_the_command_depends_on,
      [forall(tree(Tree)), true(W == ['run-to-rel-pos', '360', '525', hold])]) :-
     with_tree(Tree, obeying([outB],
@@ -288,11 +273,9 @@ test(a_blocked_motor_is_stopped_and_fails_with_a_warning,
     with_tree(Tree, ( block(outB),
                       warnings(motor_run(outB, 50, 360), Ws),
                       get_attribute(outB, command, C) )).
-
 :- end_tests(motor_run_3).
 
 :- begin_tests(motor_run_4).
-
 test(the_stop_action_is_written_before,
      [ forall(( tree(Tree),
                 member(Action, [coast, brake, hold]) )), true(A == Action) ]) :-
@@ -338,11 +321,9 @@ test(a_wrong_option_throws_and_writes_nothing,
        true(Caught-W == caught-[]) ]) :-
     with_tree(Tree, ( catch(motor_run(outB, 50, 90, Options), error(Error, _), Caught = caught),
                       written(W) )).
-
 :- end_tests(motor_run_4).
 
 :- begin_tests(motors_turn).
-
 test(each_motor_makes_its_move,
      [forall(tree(Tree)), true([B, C] == ['90', '-45'])]) :-
     with_tree(Tree, ( motors_turn([move(outB, 50, 90), move(outC, 20, -45)], [wait(false)]),
@@ -386,13 +367,11 @@ test(what_is_no_list_of_moves_throws,
                          [move(1, 5, 9)]-type_error(_, _) ]) )),
        error(Error, _) ]) :-
     with_tree(Tree, motors_turn(Moves, [])).
-
 :- end_tests(motors_turn).
 
 % ---------------- WAITS
 
 :- begin_tests(motor_wait).
-
 test(reached, [forall(tree(Tree))]) :-
     with_tree(Tree, obeying([outB],
                             ( motor_run(outB, 50, 90, [wait(false)]),
@@ -457,11 +436,9 @@ test(a_wrong_argument_throws,
                          outB-[timeout(x)]-type_error(evaluable, x/0) ]) )),
        error(Error, _) ]) :-
     with_tree(Tree, motor_wait(Ports, Options, _)).
-
 :- end_tests(motor_wait).
 
 :- begin_tests(motor_wait_flag).
-
 test(while_it_runs, [forall(tree(Tree))]) :-
     with_tree(Tree, ( put_attribute(outB, state, 'running ramping'),
                       later(0.05, put_attribute(outB, state, holding)),
@@ -520,13 +497,11 @@ test(a_signal_that_does_not_throw_goes_on_waiting, [forall(tree(Tree))]) :-
                       thread_self(Me),
                       later(0.05, thread_signal(Me, stops(outB))),
                       motor_wait_while(outB, running) )).
-
 :- end_tests(motor_wait_flag).
 
 % ---------------- INTERRUPTED
 
 :- begin_tests(interrupted).
-
 % On a busy machine the limit may come before the motor has started.
 test(a_time_limit_stops_the_motor,
      [ forall(tree(Tree)),
@@ -549,7 +524,6 @@ test(unplugged_on_the_way_stops_the_others,
                       catch(motors_turn([move(outB, 50, 36000), move(outC, 50, 36000)], []),
                             error(F, context(_/_, _)), true),
                       get_attribute(outC, command, C) )).
-
 :- end_tests(interrupted).
 
 % ---------------- TIMES AND PLACES
@@ -564,7 +538,6 @@ linear(Tree, Goal) :-
                Goal )).
 
 :- begin_tests(motor_run_timed).
-
 test(runs_for_its_time_and_brakes, [forall(behaving(Tree)), true(Ss-R == []-stopped)]) :-
     on(Tree, ( sim_time(T0), motor_run_timed(outA, 50, 0.5),
                took(Tree, T0, 0.5, 0.15), motor_states(outA, Ss),
@@ -610,11 +583,9 @@ test(a_wrong_argument_throws_and_writes_nothing,
     plain(( catch(motor_run_timed(outB, Speed, Seconds, Options), error(Error, _),
                   E = caught),
             written(W) )).
-
 :- end_tests(motor_run_timed).
 
 :- begin_tests(motor_run_to).
-
 test(goes_to_a_position_whatever_the_sign_of_the_speed,
      [forall(( behaving(Tree), member(Speed, [50, -50]) ))]) :-
     on(Tree, ( motor_run_to(outA, Speed, 180), settle(Tree),
@@ -660,11 +631,9 @@ test(a_wrong_argument_throws_and_writes_nothing,
                        -domain_error(motor_move, by(outB, 50, 90)) ])),
        true(E-W == caught-[]) ]) :-
     plain(( catch(Goal, error(Error, _), E = caught), written(W) )).
-
 :- end_tests(motor_run_to).
 
 :- begin_tests(motor_run_direct).
-
 test(runs_and_can_be_changed, [forall(behaving(Tree)), true(Ds == [40, -30])]) :-
     on(Tree, ( motor_run_direct(outA, 40), motor_duty(outA, D1),
                motor_run_direct(outA, -30), motor_duty(outA, D2),
@@ -682,11 +651,9 @@ test(what_is_no_number_throws,
                                    motor_run_direct(outB, x)-type_error(evaluable, _) ])),
        error(Error, _) ]) :-
     plain(Goal).
-
 :- end_tests(motor_run_direct).
 
 :- begin_tests(motor_run_until_stalled).
-
 % outA is held fast a second later.
 arm(Goal) :-
     with_sim([], ( sim_at(1, sim_jam(outA, true)), Goal )).
@@ -738,11 +705,9 @@ test(a_wrong_argument_throws_and_writes_nothing,
                        -domain_error(motor_option, ramp_up(9)) ])),
        true(E-W == caught-[]) ]) :-
     plain(( catch(Goal, error(Error, _), E = caught), written(W) )).
-
 :- end_tests(motor_run_until_stalled).
 
 :- begin_tests(named_twice).
-
 test(throws_and_moves_nothing,
      [ forall(( member(Port, [outA, 'ev3-ports:outA']),
                 member(Goal, [ motors_run([run(outA, 5), run(outB, 5), run(Port, 6)]),
@@ -752,11 +717,9 @@ test(throws_and_moves_nothing,
        true(P-W == outA-[]) ]) :-
     plain(( catch(Goal, error(domain_error(distinct_ports, P), _), true),
             written(W) )).
-
 :- end_tests(named_twice).
 
 :- begin_tests(options).
-
 test(what_is_no_option_throws_and_moves_nothing,
      [ forall(member(Options-Error,
                      [ [tmeout(3)]-domain_error(motor_option, tmeout(3)),
@@ -781,11 +744,9 @@ test(of_a_simulation_and_nothing_is_started,
                        catch(sim_start(room, [klock(virtual)]),
                              error(domain_error(sim_option, klock(virtual)), _), E = caught),
                        ev3_sysfs(After) )).
-
 :- end_tests(options).
 
 :- begin_tests(linear_actuator).
-
 test(is_found, [forall(tree(Tree)), true(Ps == [outD])]) :-
     linear(Tree, findall(P, linear_actuator(P), Ps)).
 test(moves_by_millimetres) :-
@@ -799,11 +760,9 @@ test(millimetres_become_counts, true(D-P == '40'-10.0)) :-
     linear(plain, ( motor_run(outD, 50, 20, [wait(false)]),
                     get_attribute(outD, position_sp, D),
                     put_attribute(outD, position, 20), motor_position(outD, P) )).
-
 :- end_tests(linear_actuator).
 
 :- begin_tests(units).
-
 test(a_speed_may_have_a_unit,
      [ forall(( tree(Tree),
                 member(Speed-Counts, [ dps(90)-90, rps(1/2)-180, rpm(20+10)-180,
@@ -848,5 +807,4 @@ test(what_is_no_number_throws,
                              -type_error(evaluable, rotations/1) ]) )),
        error(Error, _) ]) :-
     with_tree(Tree, Goal).
-
 :- end_tests(units).

@@ -13,7 +13,6 @@
 :- dynamic driving/0.
 
 :- begin_tests(navigation).
-
 robot_at(X, Y, Heading) :-
     set_robot(5.6, 10.6, outB, outC),
     set_pose(X, Y, Heading).
@@ -156,11 +155,9 @@ stop_running :-
     simulated_pause(0.02),
     stop_running.
 stop_running.
-
 :- end_tests(navigation).
 
 :- begin_tests(rooms).
-
 %   A robot with a margin of 6 cm gets there; or not even one with none.
 
 expected(Room, Reason) :-
@@ -258,5 +255,4 @@ hits_blindly(Room) :-
     roadmap_path(Map, From, To, Points, [margin(0)]),
     Points \= [_, _],
     !.
-
 :- end_tests(rooms).

@@ -168,7 +168,6 @@ loads(_, Row) :-
     Type \== 'di-dflex'.
 
 :- begin_tests(more_sensors).
-
 test(each_shows_what_there_is,
      [ forall(( tree(Tree), number_of(Row), loads(Tree, Row) )),
        true(same(Expected, V)) ]) :-
@@ -221,11 +220,9 @@ test(an_nxt_touch_sensor_is_one, [forall(tree(Tree)), true(P-Q == in1-Expected)]
                 ( ultrasonic_sensor(Q), ultrasonic_sensor(in1),
                   \+ ultrasonic_sensor(in2), \+ touch_sensor(in1) )),
     Expected = 'in1:i2c1'.
-
 :- end_tests(more_sensors).
 
 :- begin_tests(moving_sensors).
-
 test(a_compass_turns_with_the_robot, [forall(behaving(Tree))]) :-
     with_sensor(Tree, 'ht-nxt-compass', [],
                 ( compass(in1, 0),
@@ -246,11 +243,9 @@ test(an_angle_sensor_is_on_the_axle_and_can_be_reset, [forall(behaving(Tree))]) 
                   angle_total(in1, Zero) )),
     near(Turned, Counts, 4),
     Zero == 0.
-
 :- end_tests(moving_sensors).
 
 :- begin_tests(sensor_values).
-
 % Modes whose raw data are read at once, and some that are not.
 several('lego-ev3-color', 'RGB-RAW').
 several('lego-ev3-color', 'REF-RAW').
@@ -319,5 +314,4 @@ test(a_wrong_argument_throws,
                                         7-'COL-COLOR'-type_error(_, 7) ])),
        error(Error, _) ]) :-
     with_tree(plain, sensor_values(Port, Mode, _)).
-
 :- end_tests(sensor_values).

@@ -5,7 +5,6 @@
 :- use_module(library(ev3dev/drive)).
 
 :- begin_tests(odometry).
-
 test(counts_from_where_the_robot_was_set,
      [forall(tree(Tree)), true(P == [0.0, 0.0, 0.0])]) :-
     on(Tree, ( set_robot(5.6, 10.6, outB, outC),
@@ -173,5 +172,4 @@ test(moves_take_the_speed_with_its_unit, true(Far == [])) :-
                            Far) )).
 test(a_speed_of_0_is_none, [forall(member(S, [cm_per_s(0), rpm(0), 0])), error(domain_error(speed, S), _)]) :-
     drive_option(speed, S).
-
 :- end_tests(odometry).

@@ -35,7 +35,6 @@ published(Name, Least) :-
     published(Name, Least, _, _).
 
 :- begin_tests(pddl).
-
 test(a_shortest_plan_is_found_and_valid,
      [forall(published(Name, Least)), true(Verdict-Length == solved-Least)]) :-
     files(Name, Domain, Problem),
@@ -449,5 +448,4 @@ test(an_unbound_file,
      [ forall(member(Goal, [ pddl_domain(_), pddl_problem(_) ])),
        error(instantiation_error) ]) :-
     call(Goal).
-
 :- end_tests(pddl).

@@ -123,7 +123,6 @@ unblock(Cell) :-
     retractall(blocked(Cell)).
 
 :- begin_tests(random_maps).
-
 test(every_planner_keeps_its_claim_on_random_maps, true(Wrong == [])) :-
     findall(Seed-Planner-Why,
             ( case(150, 1000, Seed), wrong(Seed, Planner, Why) ),
@@ -229,7 +228,6 @@ relax_way(way(From, To, Cost), Costs0-Changed0, Costs-Changed) :-
     ;   Costs = Costs0,
         Changed = Changed0
     ).
-
 :- end_tests(random_maps).
 
 :- begin_tests(repairs).
@@ -327,11 +325,9 @@ test(every_planner_replans, [forall(planner(Planner))]) :-
     aggregate_all(count, member(move, Plan), 4),
     option(steps(Steps), Facts),
     length(Plan, Steps).
-
 :- end_tests(repairs).
 
 :- begin_tests(any_problem).
-
 step(N, double, Next, 1) :-
     Next is 2*N,
     Next =< 100.
@@ -408,11 +404,9 @@ test(any_weight_from_1_on_will_do, Claim == cost_within(1.5)) :-
     planner_claim(weighted_a_star(1.5), Claim).
 test(too_light_a_weight_is_none, fail) :-
     planner(weighted_a_star(0.5)).
-
 :- end_tests(any_problem).
 
 :- begin_tests(bad_problems).
-
 ok(Options, problem(1, 10, Options)).
 
 any(N, add_one, Next, 1) :-
@@ -485,11 +479,9 @@ test(changed_is_no_list, error(type_error(list, x), _)) :-
     replan(1, x, _, Planning, _).
 test(no_planning, error(domain_error(planning, x), _)) :-
     replan(1, [], _, x, _).
-
 :- end_tests(bad_problems).
 
 :- begin_tests(grid_map).
-
 map(Options, Map) :-
     grid_map([rows(["..#", ".O.", ">.."])|Options], Map).
 
@@ -626,5 +618,4 @@ ways(N, Cells, Ways) :-
                       Nexts)
             ),
             Ways).
-
 :- end_tests(grid_map).

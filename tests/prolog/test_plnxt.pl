@@ -34,7 +34,6 @@ all_seen(All) :-
     findall(What, seen(What), All).
 
 :- begin_tests(robot).
-
 % The first test: no robot has been set yet.
 test(is_the_default_one, true(Robot == [5.6, 10.6, outB, outC])) :-
     with_sim([], ( nxt_open, robot(D, A, L, R), nxt_close )),
@@ -75,11 +74,9 @@ test(fails_with_its_goal, fail) :-
     nxt([], nxt_robot(nxt, fail)).
 test(knows_its_name, error(existence_error(nxt_robot, you))) :-
     nxt([], nxt_robot(you, true)).
-
 :- end_tests(robot).
 
 :- begin_tests(moves).
-
 test(go_until_they_are_stopped) :-
     nxt([], ( nxt_go(400), wait(2), nxt_stop, wait(1), at_rest,
               sim_pose(_, Y, _) )),
@@ -116,11 +113,9 @@ test(succeed_if_a_trigger_has_stopped_them) :-
               nxt_go_cm(300, 100),
               sim_pose(_, Y, _) )),
     Y < 30.
-
 :- end_tests(moves).
 
 :- begin_tests(sensors).
-
 test(measure_at_any_port) :-
     nxt(room, ( nxt_ultrasonic(D, force), nxt_light(L, force) )),
     D > 50,
@@ -183,11 +178,9 @@ test(play_tones_without_waiting) :-
 
 whole(Value, Whole) :-
     Whole is round(Value).
-
 :- end_tests(sensors).
 
 :- begin_tests(triggers).
-
 test(happen_once, true(All == [x-1.0])) :-
     nxt([], ( trigger_create(a, flips, [see(x)]), wait(5), all_seen(All) )).
 test(happen_count_times, true(All == [x-1.0, x-3.0])) :-
@@ -245,15 +238,12 @@ flips :-
 flips_again :-
     ev3_time(Time),
     Time >= 3.
-
 :- end_tests(triggers).
 
 :- begin_tests(programs).
-
 test(sleep_is_a_wait, true(All == [x-1.0, slept-2.0])) :-
     nxt([], ( trigger_create(a, plunit_triggers:flips, see(x)),
               sleep(2), see(slept), all_seen(All) )).
 test(find_the_file_beside_them) :-
     exists_file('examples/plnxt.pl').
-
 :- end_tests(programs).

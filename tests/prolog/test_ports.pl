@@ -27,18 +27,15 @@ forever :-
     fail.
 
 :- begin_tests(lego_port).
-
 test(in_their_order,
      [ forall(tree(Tree)),
        true(Ports == [in1, in2, in3, in4, outA, outB, outC, outD]) ]) :-
     in_tree(Tree, findall(P, lego_port(P), Ports)).
 test(in_either_spelling, [forall(tree(Tree))]) :-
     in_tree(Tree, ( lego_port(outA), lego_port('ev3-ports:outA'), \+ lego_port(outE) )).
-
 :- end_tests(lego_port).
 
 :- begin_tests(port_mode).
-
 test(auto_at_first,
      [forall(tree(Tree)), true(Modes == [auto])]) :-
     in_tree(Tree, ( findall(M, port_mode(_, M), Ms), sort(Ms, Modes) )).
@@ -102,11 +99,9 @@ test(what_is_no_mode_throws_and_writes_nothing,
     with_tree(plain, [port(outA)-'ev3-output-port'],
               ( catch(port_mode(Port, Mode), error(Error, _), E = caught),
                 written(W) )).
-
 :- end_tests(port_mode).
 
 :- begin_tests(port_device).
-
 test(what_is_where,
      [ forall(tree(Tree)),
        true(Ds == [ in1-'lego-ev3-us', in2-'lego-ev3-color',
@@ -160,11 +155,9 @@ test(what_is_no_device_throws_and_writes_nothing,
     with_tree(plain, [port(outA)-'ev3-output-port'],
               ( catch(port_device(Port, Device), error(Error, _), E = caught),
                 written(W) )).
-
 :- end_tests(port_device).
 
 :- begin_tests(new_devices).
-
 % What is just plugged in is not yet open to the program: udev takes 0.5 s.
 
 test(a_motor_that_was_just_plugged_in_is_waited_for,
@@ -194,5 +187,4 @@ test(the_wait_can_be_interrupted, true(E == time_limit_exceeded)) :-
 test(what_can_never_be_written_is_told_at_once,
      [forall(behaving(Tree)), error(permission_error(write, attribute, _), _)]) :-
     on(Tree, motor_attribute(outB, max_speed, 2000)).
-
 :- end_tests(new_devices).

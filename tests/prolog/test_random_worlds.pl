@@ -18,7 +18,6 @@ rooms_count(Seed, Thing, Count) :-
     length(Things, Count).
 
 :- begin_tests(random_worlds).
-
 test(a_seed_is_a_world, true(One-Two == Again-Again2)) :-
     random_room(3, [], One), random_track(3, [], Two),
     random_room(3, [], Again), random_track(3, [], Again2).
@@ -109,5 +108,4 @@ test(wrong_seed, error(type_error(integer, one))) :-
     random_maze(one, [], _).
 test(wrong_size, error(domain_error(grid_size, 1-5))) :-
     random_maze(1, [size(1-5)], _).
-
 :- end_tests(random_worlds).

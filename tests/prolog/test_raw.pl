@@ -31,7 +31,6 @@ appears(Port) :-
     !.
 
 :- begin_tests(i2c).
-
 test(registers_are_read,
      [forall(tree(Tree)), true(Makers == ['HITECHNC'])]) :-
     with_compass(Tree,
@@ -98,11 +97,9 @@ test(too_many_are_explained,
 test(a_plain_file_that_is_too_short_is_no_sensor, error(syntax_error(attribute), _)) :-
     with_tree(plain, ['in1:i2c1'-'ht-nxt-compass'],
               ( put_attribute('in1:i2c1', direct, short), i2c_read(in1, 4, 8, _) )).
-
 :- end_tests(i2c).
 
 :- begin_tests(analog_voltage).
-
 test(is_that_of_the_sensor,
      [ forall(( tree(Tree), member(Type, ['nxt-analog', 'ev3-analog-01', 'ev3-analog-14']) )),
        all(P-V == [in1-2.504]) ]) :-
@@ -156,5 +153,4 @@ test(can_be_waited_for, true(Reason == reached)) :-
                 sensor_wait(analog_voltage(in1) > 2.5, [timeout(3), reason(Reason)]) )).
 test(fails_without_a_sensor, [forall(member(P, [_, in1])), fail]) :-
     with_tree(plain, [], analog_voltage(P, _)).
-
 :- end_tests(analog_voltage).

@@ -8,7 +8,6 @@
 :- use_module(library(sgml)).
 
 :- begin_tests(roadmap).
-
 %   A fact of each kind that a world may have, away from the way.
 world_fact(bounds(-500, -500, 500, 500)).
 world_fact(wall(200, 0, 200, 50)).
@@ -134,11 +133,9 @@ test(no_picture_where_there_is_no_way, [true(\+ exists_file(File))]) :-
     square(Map),
     tmp_file(roadmap, File),
     \+ roadmap_svg(Map, 0-0, 50-50, File, []).
-
 :- end_tests(roadmap).
 
 :- begin_tests(roadmap_bad_input).
-
 impossible(polygon([0-0, 10-0])).
 impossible(polygon([0-0, 10-10, 10-0, 0-10])).
 impossible(polygon([0-0, 10-0, 20-0])).
@@ -205,5 +202,4 @@ bad(raduis(5), domain_error(roadmap_option, raduis(5))).
 
 test(options_that_are_no_list, error(type_error(list, x))) :-
     roadmap_path([], 0-0, 1-1, _, x).
-
 :- end_tests(roadmap_bad_input).

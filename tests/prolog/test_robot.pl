@@ -46,7 +46,6 @@ running :-
 % ---------------- DESCRIPTION
 
 :- begin_tests(set_robot).
-
 test(is_remembered,
      [forall(tree(Tree)), true([W, A, L, R] == [5.6, 10.6, outB, outC])]) :-
     with_robot(Tree, robot(W, A, L, R)).
@@ -90,11 +89,9 @@ test(a_length_that_is_no_length_throws,
     with_robot(Tree, set_robot(Length, 10.6, outB, outC)).
 test(writes_nothing, [forall(tree(Tree)), true(W == [])]) :-
     with_robot(Tree, written(W)).
-
 :- end_tests(set_robot).
 
 :- begin_tests(no_robot, [ setup(retractall(ev3dev_robot_state:described(_, _, _))) ]).
-
 test(nothing_can_be_done_without_a_robot,
      [ forall(( tree(Tree),
                 member(Goal, [ robot(_, _, _, _), go(50), go(50, 90), go(50, 0),
@@ -112,13 +109,11 @@ test(stop_stops_all_motors,
                                 get_attribute(Port, stop_action, Action),
                                 get_attribute(Port, command, Command) ),
                               Bs) )).
-
 :- end_tests(no_robot).
 
 % ---------------- GOING
 
 :- begin_tests(go).
-
 test(go_1_runs_both_wheels,
      [forall(tree(Tree)), true(S-C == ('525'-'525')-('run-forever'-'run-forever'))]) :-
     with_robot(Tree, ( go(50),
@@ -195,11 +190,9 @@ test(what_is_no_number_throws_and_writes_nothing,
        true(Caught-W == caught-[]) ]) :-
     with_robot(Tree, ( catch(Goal, error(Error, _), Caught = caught),
                        written(W) )).
-
 :- end_tests(go).
 
 :- begin_tests(stop).
-
 test(brakes_both_wheels,
      [forall(tree(Tree)), true(C-A == (stop-stop)-(brake-brake))]) :-
     with_robot(Tree, ( go(50),
@@ -222,11 +215,9 @@ test(from_another_thread_ends_a_move_which_fails,
                                    stops(outC) ),
                                  warnings(( go_cm(5, 10000)
                                           -> Ended = succeeds ; Ended = fails ), Ws)) )).
-
 :- end_tests(stop).
 
 :- begin_tests(interrupted).
-
 test(a_time_limit_stops_both_wheels,
      [ forall(( tree(Tree),
                 member(Goal, [go_cm(5, 10000), go(5, 360000), turn(5, 36000)]) )),
@@ -254,13 +245,11 @@ test(a_blocked_wheel_stops_both_and_fails,
                        block(outB),
                        warnings(go_cm(20, 100), Ws),
                        wheels(command, C) )).
-
 :- end_tests(interrupted).
 
 % ---------------- TURNING
 
 :- begin_tests(turn_without_gyro).
-
 test(turn_1_runs_the_wheels_against_each_other,
      [forall(tree(Tree)), true(S == '525'-'-525')]) :-
     with_robot(Tree, ( turn(50),
@@ -286,7 +275,6 @@ test(an_impossible_turn_fails_and_writes_nothing,
        true(W == []) ]) :-
     with_robot(Tree, ( \+ Goal,
                        written(W) )).
-
 :- end_tests(turn_without_gyro).
 
 gyro_angle(Angle) :-
@@ -296,7 +284,6 @@ gyro_angle(Angle) :-
 gyro([in4-'lego-ev3-gyro']).
 
 :- begin_tests(turn_with_gyro).
-
 test(ends_within_a_degree_and_holds_both,
      [ forall(( behaving(Tree),
                 member(Speed-Degrees-Target, [ 40-90-90, 40-(-60)-(-60), -40-60-(-60) ]) )),
@@ -356,7 +343,6 @@ test(an_impossible_turn_fails_and_writes_nothing,
     gyro(Gyro),
     with_robot(Tree, Gyro, ( \+ Goal,
                        written(W) )).
-
 :- end_tests(turn_with_gyro).
 
 % ---------------- ONE DRIVE
@@ -382,7 +368,6 @@ moved(Library, Output) :-
     assertion(Status == exit(0)).
 
 :- begin_tests(one_drive).
-
 test(go_and_turn_do_the_same_whatever_else_is_loaded,
      [ forall(member(Library, ['ev3dev/drive', 'ev3dev/grid'])), true(A == B) ]) :-
     moved(ev3dev, A),
@@ -403,11 +388,9 @@ test(what_was_driven_before_the_library_was_loaded_counts) :-
                      Cm is round(Y),
                      print(Cm).", [goal(main)], Status, Output),
     Status-Output == exit(0)-"18".
-
 :- end_tests(one_drive).
 
 :- begin_tests(units).
-
 test(a_speed_in_cm_per_second_is_that_of_the_robot) :-
     with_sim([], ( set_robot(5.6, 10.6, outB, outC),
                    go(cm_per_s(10)), wait(1),
@@ -429,11 +412,9 @@ test(what_is_no_number_throws,
      [ forall(member(Goal, [go(cm_per_s(a)), go_cm(cm_per_s(a), 10), turn(rps(a)), turn(rps(a), 9)])),
        error(type_error(evaluable, a/0), _) ]) :-
     with_sim([], ( set_robot(5.6, 10.6, outB, outC), Goal )).
-
 :- end_tests(units).
 
 :- begin_tests(gear).
-
 % Its motors turn three times as fast as its wheels.
 geared(Goal) :-
     D is 5.6 / 3,
@@ -468,5 +449,4 @@ test(a_wrong_one_throws_and_changes_nothing, true(E-G == caught-1.0)) :-
              motor_gear(outB, G) )).
 test(a_robot_that_cannot_be_set_changes_nothing, true(G == 1.0)) :-
     geared(( \+ set_robot(5.6, 10.6, outB, outD, [gear(3)]), motor_gear(outB, G) )).
-
 :- end_tests(gear).

@@ -81,7 +81,6 @@ behave_for(Seconds, Rules, Options) :-
 % ---------------- CHOICE
 
 :- begin_tests(choice).
-
 test(the_first_rule_that_holds_is_active,
      true(Whats == [rule(go_a), called(a)])) :-
     noted([0-raise(a), 0-raise(b)], behave_for(1, [go_a, turn_b, wander]), Notes),
@@ -191,13 +190,11 @@ reaction(Action, Step, Seconds) :-
                once(( member(Time-written('tacho-motor/motor0/speed_sp', _), Events),
                       Time >= Change )),
                Seconds is Time - Change )).
-
 :- end_tests(choice).
 
 % ---------------- ACTIONS
 
 :- begin_tests(actions).
-
 test(an_action_is_called_once, true(Whats == [rule(wander), called(wander)])) :-
     noted([], behave_for(3, [wander]), Notes),
     whats(Notes, Whats).
@@ -345,13 +342,11 @@ test(a_guard_must_not_wait,
        error(permission_error(wait, guard, r), context(_, _)) ]) :-
     with_sim([], ( set_robot(5.6, 10.6, outB, outC),
                    behave([(r :: Guard ~> true)], [timeout(1)]) )).
-
 :- end_tests(actions).
 
 % ---------------- NESTING, MESSAGES
 
 :- begin_tests(nested).
-
 test(an_inner_behave_is_left_for_an_outer_rule,
      true(Changes == [ rule(inner), rule(go_a), suppressed(inner), rule(turn_b) ])) :-
     noted([ 0-raise(a), 1-raise(b) ],
@@ -389,11 +384,9 @@ test(outside_of_a_behave_there_is_none,
 
 drop_before(T0, Notes0, Notes) :-
     findall(T-What, ( member(T-What, Notes0), T >= T0 ), Notes).
-
 :- end_tests(nested).
 
 :- begin_tests(wrong).
-
 test(an_unknown_rule, error(existence_error(rule, nobody), context(behave/1, _))) :-
     behave([nobody]).
 test(what_is_no_rule, [forall(member(R, [7, "x"])), error(type_error(rule, R), _)]) :-
@@ -409,5 +402,4 @@ test(an_unknown_option_of_a_rule, error(domain_error(rule_option, hurry(1)), _))
     behave([(r, hurry(1) :: true ~> true)]).
 test(an_unknown_option, error(domain_error(behave_option, hurry(1)), _)) :-
     behave([], [hurry(1)]).
-
 :- end_tests(wrong).

@@ -36,7 +36,6 @@ show(Goal) :-
     screen_show.
 
 :- begin_tests(pictures).
-
 %   The same picture makes the same file, so that files can be compared.
 test(are_as_they_were,
      [ forall(( screen(Tree, Bits), picture(Name) )),
@@ -64,11 +63,9 @@ face :-
            screen_circle(X, 45, 8, [fill(true)])),
     screen_arc(89, 64, 36, 100, 160, [width(4)]),
     screen_show.
-
 :- end_tests(pictures).
 
 :- begin_tests(screen).
-
 test(has_four_bytes_for_a_pixel, true([Corner, Second, Last] == [0, 85, 170])) :-
     on_screen(plain, 32,
               ( show(( screen_point(0, 0),
@@ -148,11 +145,9 @@ grey(Luma, Bytes) :-
 grey_pixels([], _).
 grey_pixels([L, L, L, 0|Rest], L) :-
     grey_pixels(Rest, L).
-
 :- end_tests(screen).
 
 :- begin_tests(screen_errors).
-
 :- meta_predicate with_bytes(+, -, 0).
 
 test(arguments_are_checked,
@@ -228,5 +223,4 @@ with_bytes(Bytes, File, Goal) :-
     setup_call_cleanup(put_bytes_of(write, File, Bytes),
                        once(Goal),
                        delete_file(File)).
-
 :- end_tests(screen_errors).

@@ -11,7 +11,6 @@ ev3dev_sensor_info:known_type('my-scale', 'kitchen scale').
 ev3dev_sensor_info:known_mode('my-scale', 'WEIGHT', 1, 1, g, 'weight in grams').
 
 :- begin_tests(sensor_mode).
-
 test(of_a_type, all(Mode/Count/Decimals/Units ==
                     [ 'REFLECT'/1/1/pct, 'AMBIENT'/1/1/pct ])) :-
     sensor_mode('lego-nxt-light', Mode, Count, Decimals, Units, _).
@@ -69,11 +68,9 @@ test(each_is_as_the_simulator_has_it,
             ( sensor_mode(Type, Name, Count, Decimals, Units, _),
               \+ later(Type, Name) ),
             Known).
-
 :- end_tests(sensor_mode).
 
 :- begin_tests(sensor_info).
-
 test(tells_all_of_a_compass,
      [ forall(behaving(Tree)),
        true(Info == [ type('ht-nxt-compass'), what('HiTechnic compass'),
@@ -111,11 +108,9 @@ test(of_no_sensor_fails, [fail]) :-
     with_tree(plain, sensor_info(in9, _)).
 test(a_port_is_no_number, error(type_error(_, 7), _)) :-
     with_tree(plain, sensor_info(7, _)).
-
 :- end_tests(sensor_info).
 
 :- begin_tests(sensor_command).
-
 test(is_written, true(Text == 'BEGIN-CAL')) :-
     with_tree(plain, ['in1:i2c1'-'ht-nxt-compass'],
               ( sensor_command(in1, 'BEGIN-CAL'),
@@ -134,11 +129,9 @@ test(to_no_sensor_fails, [fail]) :-
     with_tree(plain, sensor_command(in9, 'RESET')).
 test(needs_both, [ forall(member(P-C, [_-'RESET', in1-_])), error(instantiation_error, _) ]) :-
     with_tree(plain, sensor_command(P, C)).
-
 :- end_tests(sensor_command).
 
 :- begin_tests(socket).
-
 test(a_port_finds_what_is_on_its_bus, true(P-T-Q == 'in1:i2c1'-'ht-nxt-compass'-Path)) :-
     with_tree(plain, ['in1:i2c1'-'ht-nxt-compass'],
               ( lego_sensor(P, _),
@@ -158,5 +151,4 @@ test(the_simulator_takes_it, [true(Sensors == [])]) :-
                   sim_unplug(P),
                   sim_step(0.3),
                   findall(S, lego_sensor(S), Sensors) )).
-
 :- end_tests(socket).

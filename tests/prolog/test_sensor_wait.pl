@@ -1,7 +1,6 @@
 :- use_module('../support/trees').
 
 :- begin_tests(sensor_wait).
-
 test(a_condition_that_holds_is_over_at_once,
      [ forall(( tree(Tree),
                 member(Condition, [ us_dist_cm(in1) < 85, us_dist_cm(in1) =< 84.3,
@@ -82,5 +81,4 @@ test(options_are_checked,
                                      patience(1)-domain_error(sensor_option, _) ])),
        error(Error, context(sensor_wait/2, _)) ]) :-
     with_tree(simulator, sensor_wait(us_dist_cm(in1) < 5, [Option])).
-
 :- end_tests(sensor_wait).

@@ -10,7 +10,6 @@ ev3dev_sensors:reading(us_dist_inches, ['ev3-analog-01'], 'ANALOG', 0).
 % ---------------- KINDS
 
 :- begin_tests(kinds).
-
 % Of the last two, which sit at the same port, one at a time.
 all_kinds(Last, [ in1-'lego-ev3-us', in2-'lego-ev3-color', in3-'lego-ev3-gyro',
                   in4-Last ]).
@@ -38,13 +37,11 @@ test(none_fails, [forall(tree(Tree)), fail]) :-
 test(a_port_is_no_number,
      [forall(tree(Tree)), error(type_error(_, 2), _)]) :-
     with_tree(Tree, light_sensor(2)).
-
 :- end_tests(kinds).
 
 % ---------------- READINGS
 
 :- begin_tests(readings).
-
 % The values of a sensor, from value0 on.
 shows(Port, Values) :-
     forall(nth0(Index, Values, Value),
@@ -121,11 +118,9 @@ test(a_port_is_no_number,
                 member(Goal, [us_dist_cm(1, _), col_rgb_raw(1, _), gyro_reset(1)]) )),
        error(type_error(_, 1), _) ]) :-
     with_tree(Tree, Goal).
-
 :- end_tests(readings).
 
 :- begin_tests(gyro).
-
 test(shows_angle_and_rate_at_once, [forall(tree(Tree)), all(P-A-R == [in4-90-7])]) :-
     with_tree(Tree, ( put_attribute(in4, mode, 'GYRO-G&A'),
                       put_attribute(in4, value0, 90),
@@ -173,11 +168,9 @@ test(a_turn_is_as_exact_if_the_rate_is_read_meanwhile) :-
 test(its_own_mode_shows_no_second_value, error(domain_error(sensor_value_index, 1), _)) :-
     with_tree(simulator, ( put_attribute(in4, mode, 'GYRO-G&A'),
                       sensor_value(in4, 'GYRO-ANG', 1, _) )).
-
 :- end_tests(gyro).
 
 :- begin_tests(sensor_reading).
-
 test(a_program_adds_a_sensor_by_a_fact,
      [forall(tree(Tree)), all(P-V == [in2-2.15])]) :-
     with_tree(Tree, [in1-'lego-ev3-us', in2-'ev3-analog-01'],
@@ -201,7 +194,6 @@ test(of_several_sensors_with_a_reading_that_at_the_port_is_meant,
                 sensor_reading(temperature, in1, V) )).
 test(what_is_not_in_the_table_fails, [forall(tree(Tree)), fail]) :-
     with_tree(Tree, sensor_reading(smell, _, _)).
-
 :- end_tests(sensor_reading).
 
 % ---------------- MODES
@@ -230,7 +222,6 @@ is_marked(Port) :-
     \+ memberchk(mode=_, Written).
 
 :- begin_tests(modes).
-
 test(the_present_mode_is_not_written_again,
      [ forall(( tree(Tree),
                 member(Goal, [ us_dist_cm(in1, _), col_reflect(in2, _),
@@ -284,11 +275,9 @@ to_and_fro :-
     ir_prox(in1, _),
     mode(in1, 'IR-SEEK'),
     fail.
-
 :- end_tests(modes).
 
 :- begin_tests(sensor_value).
-
 test(gives_any_value_in_any_mode,
      [forall(tree(Tree)), true(V-M == 7-'COL-COLOR')]) :-
     with_tree(Tree, ( put_attribute(in2, value2, 7),
@@ -315,11 +304,9 @@ test(a_wrong_argument_throws_and_writes_nothing,
        true(Caught-W == caught-[]) ]) :-
     with_tree(Tree, ( catch(sensor_value(Port, Mode, Index, _), error(Error, _), Caught = caught),
                       written(W) )).
-
 :- end_tests(sensor_value).
 
 :- begin_tests(adjust_val).
-
 test(scales_by_the_decimals_of_the_present_mode,
      [ forall(( tree(Tree),
                 member(Decimals-Raw-Value, [ 0-843-843, 1-843-84.3, 2-(-5)-(-0.05),
@@ -341,5 +328,4 @@ test(a_raw_value_beyond_64_bits_throws,
      [forall(tree(Tree)), error(representation_error(_), _)]) :-
     Raw is 10**400,
     with_tree(Tree, adjust_val(in1, Raw, _)).
-
 :- end_tests(adjust_val).

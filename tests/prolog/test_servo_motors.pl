@@ -14,17 +14,14 @@ plain(Goal) :-
     with_tree(plain, [Servo-'ms-8ch-servo'], once(Goal)).
 
 :- begin_tests(servo_motor).
-
 test(is_found, [forall(tree(Tree)), true(P == 'in1:i2c88:sv1')]) :-
     in_tree(Tree, ( servo_motor(P0) -> P = P0 )),
     in_tree(Tree, servo_motor('ev3-ports:in1:i2c88:sv1')).
 test(eight_of_them, [forall(behaving(Tree)), true(Count == 8)]) :-
     in_tree(Tree, aggregate_all(count, servo_motor(_), Count)).
-
 :- end_tests(servo_motor).
 
 :- begin_tests(servo_motor_position).
-
 test(goes_there_and_stays,
      [ forall(( behaving(Tree), member(Percent-Read, [40-40, -100-(-100), 0-0,
                                                       33.4-33, 100/3-33]) )),
@@ -69,11 +66,9 @@ test(what_is_no_position_throws_and_writes_nothing,
                          servo_motor_float(_)-instantiation_error ]) )),
        true(E-W == caught-[]) ]) :-
     plain(( catch(Goal, error(Error, _), E = caught), written(S, W) )).
-
 :- end_tests(servo_motor_position).
 
 :- begin_tests(servo_motor_settings).
-
 test(floats, [forall(behaving(Tree)), true(State == '')]) :-
     in_tree(Tree, ( sv1(S), servo_motor_position(S, 10), servo_motor_float(S),
                     servo_motor_attribute(S, state, State) )).
@@ -108,5 +103,4 @@ test(floats_at_the_end_of_the_program, true(C == float)) :-
                          main :- servo_motor_position('in1:i2c88:sv1', 20).",
                         [env('EV3DEV_SYSFS'=Root), goal(main)], exit(0), _),
             get_attribute(S, command, C) )).
-
 :- end_tests(servo_motor_settings).

@@ -15,7 +15,6 @@ stopped(Goal) :-
 empty([start(0, 0, 0)]).
 
 :- begin_tests(sim_start).
-
 test(starts_each_shipped_world,
      [forall(member(World, [room, lights, line, grid, maze, sumo]))]) :-
     with_sim(World, sim_collisions([])).
@@ -121,11 +120,9 @@ test(a_refused_world_leaves_the_old_one) :-
     with_sim([start(3, 4, 0)],
              ( catch(sim_start([wal(0, 0, 1, 1)]), error(_, _), true),
                sim_pose(3.0, 4.0, _) )).
-
 :- end_tests(sim_start).
 
 :- begin_tests(sim_files).
-
 %   The message that is printed for what is wrong in a file.
 complaint(Text, Options, Formal, Message) :-
     with_file(Text, File,
@@ -296,11 +293,9 @@ test(two_sensors_at_a_port) :-
                     Formal, Message),
     Formal = domain_error(possible_geometry, _),
     says(Message, 'FILE:2:0: ').
-
 :- end_tests(sim_files).
 
 :- begin_tests(stationary).
-
 %   A gripper on an arm, with a color sensor, in a place of the world.
 arm([ motor(outA, 'lego-ev3-m-motor', [stops(-30, 90)]),
       motor(outB, 'lego-ev3-l-motor', [stops(0, 720.5)]),
@@ -390,11 +385,9 @@ test(half_a_chassis_is_none, true(Words == 'robot has no right_wheel, no axle, n
 
 message_to_lines(Term, Lines) :-
     phrase('$messages':translate_message(Term), Lines).
-
 :- end_tests(stationary).
 
 :- begin_tests(with_sim_starts_from_nothing).
-
 %   What a program leaves behind, and what shows it.
 left(set_robot(5.6, 10.6, outB, outC), robot(_, _, _, _)).
 left(drive_option(speed, 70), ( drive_option(speed, Speed), Speed =:= 70 )).
@@ -477,11 +470,9 @@ holds(Goal, Holds) :-
     ->  Holds = true
     ;   Holds = false
     ).
-
 :- end_tests(with_sim_starts_from_nothing).
 
 :- begin_tests(sim_chance).
-
 readings(Seed, Noise, Readings) :-
     with_sim(room,
              findall(D, ( between(1, 20, _), sim_step(0.1), us_dist_cm(in1, D) ),
@@ -617,11 +608,9 @@ test(goals_side_by_side_draw_the_same_numbers,
 
 side_by_side([A, B]) :-
     with_sim([], both(( wait(0.1), numbers(A) ), numbers(B)), [seed(7)]).
-
 :- end_tests(sim_chance).
 
 :- begin_tests(sim_screen).
-
 test(no_such_depth, error(domain_error(screen_bits, 16), _)) :-
     sim_start(room, [screen(16)]).
 test(depth_that_is_no_number, error(type_error(integer, deep), _)) :-
@@ -638,11 +627,9 @@ test(its_layout_is_told_beside_the_motors,
                      ),
                      Read),
              [screen(Bits)]).
-
 :- end_tests(sim_screen).
 
 :- begin_tests(sim_stop).
-
 test(stop_is_the_end) :-
     sim_start(room, [clock(virtual)]),
     sim_stop,
@@ -674,5 +661,4 @@ test(stop_goes_back_to_the_directory_in_use_before) :-
               ( ev3_sysfs(Directory),
                 with_sim(room, ev3_sysfs('/sys/class')),
                 ev3_sysfs(Directory) )).
-
 :- end_tests(sim_stop).

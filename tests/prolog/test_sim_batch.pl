@@ -64,7 +64,6 @@ call_soon(Goal) :-
         thread_join(Id, _)).
 
 :- begin_tests(sim_batch, [condition(starts_itself)]).
-
 test(a_score_for_each_seed_in_their_order, Seeds == [5, 3, 5, 4]) :-
     with_program(File, scores(File, drawn, [5, 3, 5, 4], Scores)),
     Scores = [_-A, _-B, _-A, _-C],
@@ -139,7 +138,6 @@ test(what_is_wrong_with_the_call,
                        sim_batch(File, drawn, [1], _, [cpu(-1)])-domain_error(seconds, -1) ])),
        error(Formal) ]) :-
     with_program(File, Goal).
-
 :- end_tests(sim_batch).
 
 % Workers of other machines are processes of this one.
@@ -184,7 +182,6 @@ as_here(File, Port, Test, Same) :-
 :- ( exists_source(library(redis)) -> use_module(library(redis), [redis/3]) ; true ).
 
 :- begin_tests(sim_batch_redis, [condition(( can_use_redis, starts_itself ))]).
-
 test(the_same_scores_though_a_worker_is_killed, There == Here) :-
     cases(200, Count),
     numlist(1, Count, Seeds),
@@ -235,5 +232,4 @@ test(what_is_left_before_its_end_is_dropped) :-
             ( catch(call_soon(scores(File, waits, [1, 2], [redis(localhost:Port), sleep(2)], _)),
                     over, true),
               no_run_is_left(Port) )))).
-
 :- end_tests(sim_batch_redis).

@@ -67,7 +67,6 @@ draws(Text) :-
     format(string(Text), "~q~n", [X-Y]).
 
 :- begin_tests(sim_fenced, [condition(starts_itself)]).
-
 drives(["main :- drives.",
         "drives :- set_robot(5.6, 10.6, outB, outC), go_cm(20, 30),",
         "    forall(between(1, 100, _), us_dist_cm(in1, _)), us_dist_cm(in1, Cm),",
@@ -206,11 +205,9 @@ test(no_file, error(existence_error(source_sink, nowhere))) :-
     in_room(sim_fenced(nowhere, _)).
 test(wrong_option, error(domain_error(sim_fenced_option, seed(1)))) :-
     in_room(sim_fenced(nowhere, _, [seed(1)])).
-
 :- end_tests(sim_fenced).
 
 :- begin_tests(sim_fenced_wire, [condition(( starts_itself, has_unix_sockets ))]).
-
 %   A program may know the socket, and speak for itself. An answer that is an error is as
 %   long as the greeting, which comes before.
 speaks(Questions, Ended) :-
@@ -250,5 +247,4 @@ test(it_pretends_that_reads_take_no_time,
     question([4, 1, 0], Question),
     findall(Question, between(1, 2001, _), Questions),
     speaks(Questions, Ended).
-
 :- end_tests(sim_fenced_wire).

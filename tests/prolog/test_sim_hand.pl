@@ -1,7 +1,6 @@
 :- use_module('../support/simulation').
 
 :- begin_tests(sim_world).
-
 test(place_moves_the_robot) :-
     with_sim([], ( sim_place(10*2, 5, 90), sim_pose(20.0, 5.0, 90.0) )).
 test(place_inside_something, error(domain_error(possible_geometry, _), _)) :-
@@ -65,11 +64,9 @@ test(a_hull_without_size, error(domain_error(hull, circle), _)) :-
     with_sim([], true, [robot([hull(circle)])]).
 test(add_no_thing, error(domain_error(world_item, start(0, 0, 0)), _)) :-
     with_sim([], sim_add(start(0, 0, 0))).
-
 :- end_tests(sim_world).
 
 :- begin_tests(sim_wires).
-
 test(unplug_is_noticed) :-
     with_sim([], ( sim_unplug(in4), sim_step(2), \+ gyro_sensor(_) )).
 test(unplug_takes_either_spelling) :-
@@ -105,11 +102,9 @@ test(jam_holds_and_lets_go) :-
                P1 > 300 )).
 test(jam_needs_a_boolean, error(type_error(_, perhaps), _)) :-
     with_sim([], sim_jam(outA, perhaps)).
-
 :- end_tests(sim_wires).
 
 :- begin_tests(sim_show).
-
 test(a_value_is_what_it_is_told_to_be) :-
     with_sim([], ( us_dist_cm(in1, Own),
                    sim_show(in1, value0, 123), us_dist_cm(in1, 12.3),
@@ -178,11 +173,9 @@ test(a_text_longer_than_a_page_throws, error(domain_error(attribute_text, _), _)
     maplist(=(0'x), Codes),
     atom_codes(Text, Codes),
     with_sim([], sim_show(outB, state, Text)).
-
 :- end_tests(sim_show).
 
 :- begin_tests(sim_press).
-
 test(is_seen_and_traced, true(Keys-Events == [up]-[pressed(up), pressed(down), released(down)])) :-
     with_sim(room,
              ( sim_press(up), sim_press(up), sim_press(down), sim_release(down),
@@ -253,11 +246,9 @@ events(Events) :-
               ( Event = pressed(_) ; Event = released(_) )
             ),
             Events).
-
 :- end_tests(sim_press).
 
 :- begin_tests(touched).
-
 test(a_touch_sensor_is_pressed_and_let_go, true(Seen == [0, 1, 0])) :-
     with_sim([],
              ( touch(in4, A), sim_press(in4), sim_wait(0.05), touch(in4, B),
@@ -288,5 +279,4 @@ test(there_must_be_a_touch_sensor, [ forall(member(Port, [in1, in4])), fail ]) :
 test(other_keys_are_refused,
      [ forall(member(Key, [outA, space, in5])), error(domain_error(key, Key), _) ]) :-
     with_sim([], sim_press(Key)).
-
 :- end_tests(touched).

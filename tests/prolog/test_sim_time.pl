@@ -3,7 +3,6 @@
 :- use_module(library(ev3dev/events), [race/2]).
 
 :- begin_tests(sim_time).
-
 test(starts_at_0) :-
     with_sim([], ( sim_time(T), near(T, 0, 0.001) )).
 test(step_passes) :-
@@ -71,11 +70,9 @@ interrupted(Goal, Ball) :-
 compute :-
     repeat,
     fail.
-
 :- end_tests(sim_time).
 
 :- begin_tests(sim_wait).
-
 test(lets_time_pass_on_the_virtual_clock) :-
     with_sim([], ( sim_time(T0), sim_wait(60 * 60), sim_time(T) )),
     T - T0 >= 3600,
@@ -103,11 +100,9 @@ test(a_time_that_is_none_throws,
                                    sim_wait(soon)-type_error(evaluable, _) ])),
        error(Error, _) ]) :-
     with_sim([], Goal).
-
 :- end_tests(sim_wait).
 
 :- begin_tests(sim_snapshot).
-
 polls(Count) :-
     motor_run(outB, 20),
     motor_run(outC, -20),
@@ -200,11 +195,9 @@ test(restores_no_other_things, error(domain_error(simulator_snapshot, 1), _)) :-
     with_sim([], sim_restore(1)).
 test(restores_nothing_unbound, error(instantiation_error, _)) :-
     with_sim([], sim_restore(_)).
-
 :- end_tests(sim_snapshot).
 
 :- begin_tests(planned).
-
 test(a_goal_runs_at_its_time) :-
     with_sim([], ( sim_at(1+1, note_time), sim_wait(3), noted(T) )),
     near(T, 2, 0.03).
@@ -267,11 +260,9 @@ noted(T) :-
 say_word(Word) :-
     nb_getval(said, Said),
     nb_setval(said, [Word|Said]).
-
 :- end_tests(planned).
 
 :- begin_tests(for_seconds).
-
 test(leaves_a_program_that_does_not_end) :-
     with_sim([], ( for_seconds(5, ever), sim_time(T) )),
     near(T, 5, 0.05).
@@ -447,5 +438,4 @@ ever :-
     repeat,
     sim_wait(0.3),
     fail.
-
 :- end_tests(for_seconds).

@@ -4,7 +4,6 @@
 :- use_module(library(sgml)).
 
 :- begin_tests(sim_trace).
-
 test(collisions_tell_when_and_where) :-
     with_sim([wall(-50, 30, 50, 30)],
              ( set_robot(5.6, 10.6, outB, outC),
@@ -30,11 +29,9 @@ test(trace_is_in_the_order_of_time) :-
     memberchk(_-read(Value, '2550'), Trace),
     sub_atom(Value, _, _, 0, '/value0'),
     memberchk(_-pose(_, _, _), Trace).
-
 :- end_tests(sim_trace).
 
 :- begin_tests(sim_svg).
-
 test(svg_draws_it) :-
     with_file("", File,
               ( with_sim(room, sim_svg(File)),
@@ -42,11 +39,9 @@ test(svg_draws_it) :-
                                [dialect(xml), space(remove)]) )).
 test(svg_in_no_directory, error(existence_error(_, _), _)) :-
     with_sim(room, sim_svg('/nowhere/demo.svg')).
-
 :- end_tests(sim_svg).
 
 :- begin_tests(sim_mount).
-
 test(mount_shows_the_files, [condition(can_mount)]) :-
     with_sim([],
              with_directory(Directory,
@@ -105,7 +100,6 @@ test(a_mode_can_be_written_though_time_stands_still,
                    sim_step(0.1),
                    read_file_to_string(File, Mode, []),
                    sim_unmount ))).
-
 :- end_tests(sim_mount).
 
 is_told_stale(Call, Directory) :-
@@ -125,7 +119,6 @@ unmount(Directory) :-
     ).
 
 :- begin_tests(sim_mount_dev, [condition(can_mount)]).
-
 test(shows_the_devices, true(Seen == [91136, [fb0, input], [event0, event1]])) :-
     on_dev(mount,
            ( ev3_dev(Dev),
@@ -182,5 +175,4 @@ read_bytes(Stream, Bytes) :-
     ;   Bytes = [Byte|Rest],
         read_bytes(Stream, Rest)
     ).
-
 :- end_tests(sim_mount_dev).

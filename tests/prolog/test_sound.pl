@@ -14,7 +14,6 @@ told_by_thrower(Tree, Goal, Error, Tones) :-
              heard(Tree, Tones) )).
 
 :- begin_tests(tone).
-
 test(sounds_and_ends, [forall(tree(Tree)), true(Tones == [440, 0])]) :-
     told(Tree, tone(440, 20), Tones).
 test(takes_expressions, [forall(tree(Tree)), true(Tones == [880, 0])]) :-
@@ -44,11 +43,9 @@ test(has_no_frequency, error(instantiation_error, _)) :-
     tone(_, 10).
 test(has_a_frequency_that_is_no_number, error(type_error(evaluable, high/0), _)) :-
     tone(high, 10).
-
 :- end_tests(tone).
 
 :- begin_tests(tones).
-
 test(are_played_in_order, [forall(tree(Tree)), true(Tones == [262, 0, 440, 0])]) :-
     told(Tree, tones([tone(262, 10), rest(sixteenth), tone(440, 10)]), Tones).
 test(are_notes, true(Tones == Expected)) :-
@@ -99,11 +96,9 @@ test(end_with_sound_stop, [forall(tree(Tree)), true(Tones == [440, 0])]) :-
          ( later(0.05, sound_stop),
            tones([tone(440, 1000000000), tone(880, 1000000000)])
          ), Tones).
-
 :- end_tests(tones).
 
 :- begin_tests(programs).
-
 :- dynamic tool_directory/1.
 
 %   Call Goal once with programs in the path that are shell scripts of these
@@ -257,11 +252,9 @@ alive(Pid, Alive) :-
     ->  Alive = true
     ;   Alive = false
     ).
-
 :- end_tests(programs).
 
 :- begin_tests(volume, [setup(true)]).
-
 amixer("Simple mixer control 'Beep',0
   Capabilities: volume
   Mono: 51 [20%]
@@ -292,11 +285,9 @@ test(is_not_negative, error(domain_error(volume, -1), _)) :-
     with_sim(room, volume(-1)).
 test(is_a_number, error(type_error(evaluable, loud/0), _)) :-
     volume(loud).
-
 :- end_tests(volume).
 
 :- begin_tests(sound_stop).
-
 test(does_nothing_in_silence) :-
     on_dev(plain, sound_stop).
 test(ends_speech_of_the_simulator, true(Events == [said(Text), silenced])) :-
@@ -325,11 +316,9 @@ test(nothing_sounds_after_halt, true(Status-Tones == exit(0)-[440, 0])) :-
 
 heard_event(said(_)).
 heard_event(silenced).
-
 :- end_tests(sound_stop).
 
 :- begin_tests(simulated_sound).
-
 test(speech_and_recordings_are_traced_and_take_time,
      true(Events-Longer == [said(hello), played(File)]-true)) :-
     plunit_programs:with_wav(2000, File,
@@ -344,11 +333,9 @@ test(speech_and_recordings_are_traced_and_take_time,
     ->  Longer = true
     ;   Longer = false
     ).
-
 :- end_tests(simulated_sound).
 
 :- begin_tests(without_waiting).
-
 test(tones_play_while_the_program_goes_on, true(Heard-T0 == [0-440, 1-880, 2-0]-0)) :-
     with_sim(room, ( tones([tone(440, 1000), tone(880, 1000)], [wait(false)]),
                      sim_time(T1), T0 is round(T1),
@@ -389,5 +376,4 @@ test(options_are_checked,
 heard_at(Heard) :-
     sim_trace(Trace),
     findall(S-Hertz, ( member(T-tone(Hertz), Trace), S is round(T) ), Heard).
-
 :- end_tests(without_waiting).

@@ -1,7 +1,6 @@
 :- use_module('../support/trees').
 
 :- begin_tests(time).
-
 test(the_clock_is_that_of_the_simulation) :-
     with_sim([], ( sim_step(7), ev3_time(T), sim_time(S), near(T, S, 0.001) )).
 test(the_clock_runs_on_files_too, [forall(tree(Tree)), true(T1 >= T0)]) :-
@@ -29,11 +28,9 @@ test(a_time_that_is_none_throws,
                                         soon-type_error(evaluable, _) ]) )),
        error(Error, context(wait/1, _)) ]) :-
     with_tree(Tree, wait(Seconds)).
-
 :- end_tests(time).
 
 :- begin_tests(stopwatch).
-
 test(tells_the_time_since_its_start) :-
     with_sim([], ( stopwatch(Watch), wait(2), elapsed(Watch, T1),
                    wait(1), elapsed(Watch, T2) )),
@@ -52,5 +49,4 @@ test(is_one_of_stopwatch_1,
                        7-domain_error(stopwatch, 7) ])),
        error(Error, context(elapsed/2, _)) ]) :-
     with_sim([], elapsed(Watch, _)).
-
 :- end_tests(stopwatch).

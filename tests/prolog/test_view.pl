@@ -90,7 +90,6 @@ own(Port, [Cookie]) :-
     cookie(Port, Token, Cookie).
 
 :- begin_tests(view).
-
 test(there_is_no_address_before, fail) :-
     view_url(_).
 test(the_address_has_the_token, true(Url == Expected)) :-
@@ -157,11 +156,9 @@ test(library_loads_no_server) :-
     run_program("", [goal('use_module(library(ev3dev)), \c
                            \\+ current_module(ev3dev_view_page)')], Status, _),
     Status == exit(0).
-
 :- end_tests(view).
 
 :- begin_tests(view_page).
-
 test(a_page_with_the_token) :-
     viewed(Port,
            ( get(Port, '/?t=test_token', [], Code, Answer),
@@ -285,7 +282,6 @@ fields([Field0|Fields0], Port, [Field|Fields]) :-
 has(Answer, Part) :-
     sub_string(Answer, _, _, _, Part),
     !.
-
 :- end_tests(view_page).
 
 %   Call Goal, and print nothing.
@@ -314,7 +310,6 @@ no_messages(Goal) :-
     \+ said(_).
 
 :- begin_tests(view_socket).
-
 % What a page must not send, and the code with which it is closed.
 fault(1003, [0x82, 0x81, 0, 0, 0, 0, 0'x]).               % binary
 fault(1007, [0x81, 0x81, 0, 0, 0, 0, 0xff]).              % no UTF-8
@@ -442,11 +437,9 @@ long_text(Length, Text) :-
     length(Codes, Length),
     maplist(=(0'x), Codes),
     string_codes(Text, Codes).
-
 :- end_tests(view_socket).
 
 :- begin_tests(view_frame).
-
 test(the_first_frame_has_everything) :-
     paged(Page,
           ( page_ask(Page, "next", Frame),
@@ -744,11 +737,9 @@ test(without_a_simulation_nothing_is_chosen) :-
              page_ask(Page, "next", Frame),
              page_close(Page) )),
     memberchk(Frame.source, ["none", "brick"]).
-
 :- end_tests(view_frame).
 
 :- begin_tests(view_hands).
-
 % What a hand says, and whether it is done.
 hand("place 100 100 90", "done").
 hand("place 0 0 0", "refused").
@@ -850,11 +841,9 @@ watch_pause(Page, Main) :-
     page_ask(Page, "resume", _),
     thread_send_message(Main, paused(Frame1.clock.paused, Stood)),
     ev3dev_native:view_thread_(false).
-
 :- end_tests(view_hands).
 
 :- begin_tests(view_same).
-
 % A run is byte for byte the same, watched or not.
 test(six_pages_change_nothing, true(Watched == Alone)) :-
     token(Token),
@@ -898,7 +887,6 @@ look_on(Page, Have) :-
     ->  true
     ;   look_on(Page, Frame.have)
     ).
-
 :- end_tests(view_same).
 
 % A toplevel in a process of its own, with few descriptors, and a page of it.
@@ -1001,7 +989,6 @@ drives(Page, Y0, Left) :-
     ).
 
 :- begin_tests(view_stop).
-
 % Programs that must be stopped, whatever they do.
 program("motor_run(outA, 50), repeat, fail.").
 program("motor_run(outA, 50), repeat, position(outA, _), fail.").
@@ -1126,7 +1113,6 @@ test(a_thread_that_drives_is_stopped_at_the_prompt, true) :-
           printed(Top, "alive"),
           page_ask(Page, "next", Frame2),
           \+ frame_runs(Frame2) )).
-
 :- end_tests(view_stop).
 
 %   A folder of its own, and files in it.
@@ -1146,7 +1132,6 @@ file_text(Folder, Name, Text) :-
     setup_call_cleanup(open(File, read, In), read_string(In, _, Text), close(In)).
 
 :- begin_tests(view_source).
-
 %   A toplevel in the room that has loaded a program, and its lines.
 :- meta_predicate with_program(?, +, -, 0).
 
@@ -1243,11 +1228,9 @@ test(a_file_that_was_changed_is_newer_than_what_runs) :-
           Answer.older == true,
           delete_file(File),
           refused(Page, "program", "not there any more") )).
-
 :- end_tests(view_source).
 
 :- begin_tests(view_worlds).
-
 test(a_reset_begins_the_world_again) :-
     in_room(Top, Frame,
         ( Top = top(_, _, Page),
@@ -1440,11 +1423,9 @@ test(a_world_begins_from_its_text) :-
           page_ask(Page, "next", Last),
           Last.name == "mine",
           Last.robot.true == [50, 40, 90] )).
-
 :- end_tests(view_worlds).
 
 :- begin_tests(view_brick).
-
 % A tree of files stands in for a brick: truth, world and hands are not there.
 
 of_a_brick(plain).
@@ -1517,5 +1498,4 @@ test(a_motor_is_stopped,
           ev3dev_native:view_lift_,
           stops(outB) )),
     Error = error(permission_error(start, motor, outB), _).
-
 :- end_tests(view_brick).

@@ -62,7 +62,6 @@ fake(Text, command(sh, ['-c', Command])) :-
     format(atom(Command), "printf '~s'; grep -q end", [Text]).
 
 :- begin_tests(worker, [setup(( far_place(Where), brick_open(anna, Where) )), cleanup(brick_close(anna))]).
-
 test(a_solution_a_failure_an_error, X-No-E == 3-failed-error(type_error(evaluable, a/0))) :-
     far(anna, X is 1+2),
     ( far(anna, fail) -> No = succeeded ; No = failed ),
@@ -140,11 +139,9 @@ test(stop_all_bricks_reaches_it_while_a_goal_runs) :-
                   ( eventually(get_attribute(outB, command, 'run-forever')),
                     stop_all_bricks,
                     eventually(is_stopped) ))).
-
 :- end_tests(worker).
 
 :- begin_tests(worker_ends).
-
 test(what_it_prints_is_printed_here, Lines == ["anna: a", "anna: b", "anna: c", "anna: d", "end"]) :-
     far_place(Where),
     format(string(Text),
@@ -206,12 +203,10 @@ test(its_motors_stop_whatever_ends,
     with_motor_at_outB(stops_when(pipe, How, Wait, _)).
 test(the_grid_of_the_paper_with_the_map_on_this_side) :-
     with_far(anna, drives_over_the_grid(anna)).
-
 :- end_tests(worker_ends).
 
 % Through a server of OpenSSH, if there is one.
 :- begin_tests(worker_ssh, [condition(can_log_in)]).
-
 test(a_goal_and_its_output, X-Lines == 3-["eva: hi", "3"]) :-
     with_login(
         ( with_far(eva, ssh(eva), far(eva, X is 1+2)),
@@ -226,5 +221,4 @@ test(the_grid_of_the_paper_with_the_map_on_this_side) :-
     with_login(with_far(eva, ssh(eva), drives_over_the_grid(eva))).
 test(a_login_that_is_refused, Formal == existence_error(connection, nobody)) :-
     with_login(catch(brick_open(nobody, ssh('nobody@eva')), error(Formal, _), true)).
-
 :- end_tests(worker_ssh).
