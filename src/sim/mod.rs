@@ -12,12 +12,11 @@ mod mount;
 mod mount;
 mod running;
 
+use self::files::SimulatedFiles;
 pub(crate) use self::running::{
     end_of, end_unless_mounted, has_virtual_clock, robot_name, running_simulations,
     watched_simulation,
 };
-
-use self::files::SimulatedFiles;
 use self::running::{is_running, running_simulation, simulation, start, start_crowd};
 use crate::facts::{self, channel_of, named, remote_buttons};
 use crate::glue::call::Call;

@@ -1,8 +1,7 @@
 //! How probable a measurement is, and how uncertain a move.
+use ev3_motion::{Pose, wrapped};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg32;
-
-use ev3_motion::{Pose, wrapped};
 
 /// Farther the sensor hears nothing, in cm.
 pub const FAR: f64 = 255.0;

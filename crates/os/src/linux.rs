@@ -1,6 +1,5 @@
 //! Linux's error numbers (the same on ARM and x86), for where it does not stand behind them: in
 //! the simulated kernel, and in WebAssembly.
-
 use std::fmt;
 use std::io;
 

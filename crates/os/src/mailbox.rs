@@ -3,7 +3,6 @@
 //! One asks, the other one answers. Who waits gives the processor away for a while, which takes
 //! a microsecond where the other one has something to say, and then sleeps; the caller wakes it by
 //! other means. Neither believes the other one: a letter is copied before it is read.
-
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{MemfdFlags, SealFlags, fcntl_add_seals, ftruncate, memfd_create};
 use rustix::mm::{MapFlags, ProtFlags, mmap, munmap};

@@ -3,7 +3,6 @@
 //!
 //! A thread that can run is awake, also while other programs have the processors. So nothing
 //! here depends on what else the machine has to do.
-
 use std::fs::{self, File};
 use std::io::Read as _;
 use std::path::Path;

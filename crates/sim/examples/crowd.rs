@@ -5,11 +5,9 @@
 //! ```sh
 //! cargo run --release -p ev3-sim --example crowd
 //! ```
-
+use ev3_sim::{Bounds, Clock, Machine, Options, Pose, Simulation, WorldSpec};
 use std::fs;
 use std::time::Duration;
-
-use ev3_sim::{Bounds, Clock, Machine, Options, Pose, Simulation, WorldSpec};
 
 #[path = "../tests/it/robots.rs"]
 mod robots;

@@ -6,14 +6,13 @@
 #[path = "../tests/it/robots.rs"]
 mod robots;
 
+use ev3_sim::{Mount, Shared};
 use robots::default_machine;
 use std::error::Error;
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-
-use ev3_sim::{Mount, Shared};
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     let mut arguments = std::env::args_os().skip(1);

@@ -5,10 +5,9 @@
 #[path = "../tests/it/robots.rs"]
 mod robots;
 
+use ev3_sim::{Access, Bounds, Descriptor, Item, Machine, NodeId, Options, Pose, WorldSpec};
 use robots::default_robot;
 use std::time::{Duration, Instant};
-
-use ev3_sim::{Access, Bounds, Descriptor, Item, Machine, NodeId, Options, Pose, WorldSpec};
 
 const POLL: Duration = Duration::from_millis(10);
 

@@ -1,7 +1,4 @@
 //! What a program does with the files of a simulation. Its machine is here, or far ([`crate::far`]).
-
-use std::time::Duration;
-
 use crate::clock::Simulation;
 use crate::far::{self, Answer, Kind, Question, READ_TAKES, WRITE_TAKES};
 use crate::files::attr::Access;
@@ -9,6 +6,7 @@ use crate::machine::Written;
 use crate::machine::dev::DevDescriptor;
 use crate::machine::tree::NodeId;
 use ev3_os::linux::Errno;
+use std::time::Duration;
 
 /// An open device file.
 #[derive(Debug)]

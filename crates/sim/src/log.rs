@@ -1,5 +1,4 @@
 //! A list of what happened whose copies share what they have in common.
-
 use std::collections::VecDeque;
 use std::sync::Arc;
 

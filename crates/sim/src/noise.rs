@@ -3,7 +3,6 @@
 //! A disturbance is a function of the seed, the port and the number of the 10 ms sample, not of
 //! how often a program looked: two reads in one sample agree, and an additional read somewhere
 //! changes nothing elsewhere.
-
 use rand_distr::{Distribution, StandardNormal, StandardUniform};
 use rand_pcg::Pcg32;
 

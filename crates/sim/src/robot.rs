@@ -1,13 +1,11 @@
 //! The parts of the robot, as plain data: the vocabulary of robot files.
-
-use ev3_motion::{OUT_OF_RANGE, Pose};
-use std::ops::RangeInclusive;
-
 use crate::brick::port::Port;
 use crate::motor::{MOTOR_KINDS, MotorKind};
 use crate::noise::{Echo, Noise, TYPICAL_TEETH};
 use crate::sensor::SensorKind;
 use crate::world::{Hull, Part, SpecError};
+use ev3_motion::{OUT_OF_RANGE, Pose};
+use std::ops::RangeInclusive;
 
 /// Lengths of a robot, in cm, and its mass, in kg.
 const LENGTHS: RangeInclusive<f64> = 0.01..=1000.0;

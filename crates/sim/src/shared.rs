@@ -1,13 +1,11 @@
 //! A machine that several threads use, and a way to wait for its time to pass.
-
+use crate::clock::pace::Pace;
+use crate::machine::{Machine, crowd};
 use ev3_os::Instant;
+use ev3_os::locked;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError, Weak};
 use std::time::Duration;
-
-use crate::clock::pace::Pace;
-use crate::machine::{Machine, crowd};
-use ev3_os::locked;
 
 /// A machine behind a lock. The thread with the clock calls [`Shared::step`], or steps under the
 /// lock and calls [`Shared::wake`]. A thread that waits for a change calls [`Shared::wait`] and

@@ -1,5 +1,4 @@
 //! The units in which simulated time passes.
-
 use std::time::Duration;
 
 /// One turn of the kernel's motor loop.

@@ -1,13 +1,11 @@
 //! The record of events: the path of the robot, collisions, commands and readings. Memory stays
 //! bounded however long a run is.
-
-use ev3_motion::Pose;
-use std::sync::Arc;
-use std::time::Duration;
-
 use crate::log::Log;
 use crate::ticks::TICK_US;
 use crate::world::ItemId;
+use ev3_motion::Pose;
+use std::sync::Arc;
+use std::time::Duration;
 
 const PATH_POINTS: usize = 2048;
 const EVENTS: usize = 4096;

@@ -3,10 +3,8 @@
 //! A jiffy is 10 ms. The kernel keeps timers in a wheel of levels, each eight times as coarse as
 //! the one before, and rounds up: a timer fires in the jiffy after the one that was asked for, a
 //! long one up to an eighth of its length later.
-
-use std::cmp::Reverse;
-
 use crate::ticks::JIFFY_TICKS;
+use std::cmp::Reverse;
 
 const JIFFY_MS: u32 = 10;
 /// A level has 64 slots and begins where 63 slots of the level before end.

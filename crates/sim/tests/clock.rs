@@ -9,14 +9,13 @@ mod access;
 #[path = "it/robots.rs"]
 mod robots;
 
+use ev3_sim::{Act, Button, Clock, Machine, Options, Shared, Simulation, WorldSpec};
+use robots::default_robot;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
-
-use ev3_sim::{Act, Button, Clock, Machine, Options, Shared, Simulation, WorldSpec};
-use robots::default_robot;
 
 const fn ms(count: u64) -> Duration {
     Duration::from_millis(count)
@@ -100,6 +99,15 @@ impl Diary {
     }
 }
 
+/// Does something in a thread of its own.
+fn aside<T: Send + 'static>(
+    simulation: &Arc<Simulation>,
+    act: impl FnOnce(&Arc<Simulation>) -> T + Send + 'static,
+) -> thread::JoinHandle<T> {
+    let simulation = Arc::clone(simulation);
+    thread::spawn(move || act(&simulation))
+}
+
 #[test]
 fn a_virtual_pause_jumps_to_its_end() {
     let simulation = simulation(Clock::Virtual);
@@ -169,10 +177,7 @@ fn threads_that_wait_in_turn_do_the_same_each_time() {
 fn a_thread_that_ends_or_is_joined_passes_the_turn_on() {
     let simulation = simulation(Clock::Virtual);
     call(&simulation, "");
-    let child = {
-        let simulation = Arc::clone(&simulation);
-        thread::spawn(move || wait(&simulation, ms(100)))
-    };
+    let child = aside(&simulation, move |simulation| wait(simulation, ms(100)));
     child.join().unwrap();
     assert_eq!(now(&simulation), ms(100));
     wait(&simulation, ms(50));
@@ -208,10 +213,7 @@ fn a_thread_that_waits_for_a_message_passes_the_turn_on_and_comes_back() {
 fn time_stands_while_a_thread_computes() {
     let simulation = simulation(Clock::Virtual);
     call(&simulation, "");
-    let child = {
-        let simulation = Arc::clone(&simulation);
-        thread::spawn(move || wait(&simulation, ms(10)))
-    };
+    let child = aside(&simulation, move |simulation| wait(simulation, ms(10)));
     compute(ms(1000));
     assert_eq!(now(&simulation), Duration::ZERO);
     child.join().unwrap();
@@ -221,14 +223,11 @@ fn time_stands_while_a_thread_computes() {
 fn time_waits_for_a_new_thread_however_late_it_comes() {
     let simulation = simulation(Clock::Virtual);
     call(&simulation, "");
-    let child = {
-        let simulation = Arc::clone(&simulation);
-        thread::spawn(move || {
-            compute(ms(100));
-            call(&simulation, "");
-            now(&simulation)
-        })
-    };
+    let child = aside(&simulation, move |simulation| {
+        compute(ms(100));
+        call(simulation, "");
+        now(simulation)
+    });
     wait(&simulation, ms(1000));
     assert!(child.join().unwrap() < ms(1));
 }
@@ -242,14 +241,11 @@ fn a_turn_that_was_kept_for_one_call_is_not_kept_for_later_ones() {
     call(&simulation, "");
     stranger.join().unwrap();
     HAS_OTHERS.store(true, Ordering::SeqCst);
-    let child = {
-        let simulation = Arc::clone(&simulation);
-        thread::spawn(move || {
-            compute(ms(50));
-            call(&simulation, "");
-            now(&simulation)
-        })
-    };
+    let child = aside(&simulation, move |simulation| {
+        compute(ms(50));
+        call(simulation, "");
+        now(simulation)
+    });
     call(&simulation, "");
     access::read(&simulation, access::SOME);
     wait(&simulation, ms(1000));
@@ -296,10 +292,7 @@ fn newcomers_that_are_about_to_do_the_same_go_in_the_order_of_age() {
 fn a_thread_that_only_asks_for_the_time_lets_others_go_on() {
     let simulation = simulation(Clock::Virtual);
     call(&simulation, "");
-    let child = {
-        let simulation = Arc::clone(&simulation);
-        thread::spawn(move || wait(&simulation, ms(2)))
-    };
+    let child = aside(&simulation, move |simulation| wait(simulation, ms(2)));
     while now(&simulation) < ms(2) {
         call(&simulation, "");
     }
@@ -310,14 +303,11 @@ fn a_thread_that_only_asks_for_the_time_lets_others_go_on() {
 fn a_thread_that_polls_sees_each_moment_beside_one_that_waits_for_long() {
     let simulation = simulation(Clock::Virtual);
     let (sender, is_over) = channel();
-    let child = {
-        let simulation = Arc::clone(&simulation);
-        thread::spawn(move || {
-            call(&simulation, "");
-            let end = now(&simulation) + ms(3_600_000);
-            while !simulation.pause(end) && is_over.try_recv().is_err() {}
-        })
-    };
+    let child = aside(&simulation, move |simulation| {
+        call(simulation, "");
+        let end = now(simulation) + ms(3_600_000);
+        while !simulation.pause(end) && is_over.try_recv().is_err() {}
+    });
     let mut last = now(&simulation);
     for _ in 0..100 {
         call(&simulation, "");
@@ -384,14 +374,11 @@ fn a_turn_that_does_not_come_can_be_given_up() {
     let simulation = simulation(Clock::Virtual);
     call(&simulation, "");
     let (sender, given_up) = channel();
-    let child = {
-        let simulation = Arc::clone(&simulation);
-        thread::spawn(move || {
-            let turned = simulation.turn(&mut String::new);
-            sender.send(()).unwrap();
-            turned
-        })
-    };
+    let child = aside(&simulation, move |simulation| {
+        let turned = simulation.turn(&mut String::new);
+        sender.send(()).unwrap();
+        turned
+    });
     while given_up.try_recv().is_err() {}
     assert!(!child.join().unwrap());
     wait(&simulation, ms(10));
@@ -402,10 +389,9 @@ fn a_turn_that_does_not_come_can_be_given_up() {
 fn an_access_without_a_turn_does_not_wait_for_ever() {
     let simulation = simulation(Clock::Virtual);
     call(&simulation, "");
-    let child = {
-        let simulation = Arc::clone(&simulation);
-        thread::spawn(move || access::write(&simulation, "tacho-motor/motor1/speed_sp", "0"))
-    };
+    let child = aside(&simulation, move |simulation| {
+        access::write(simulation, "tacho-motor/motor1/speed_sp", "0")
+    });
     while !child.is_finished() {}
     child.join().unwrap();
     assert_eq!(now(&simulation), Duration::from_micros(100));
@@ -506,13 +492,10 @@ fn waiting_for_a_button_jumps_to_the_planned_press() {
 #[test]
 fn who_waits_for_a_button_lets_others_press_it_at_their_time() {
     let simulation = simulation(Clock::Virtual);
-    let finger = {
-        let simulation = Arc::clone(&simulation);
-        thread::spawn(move || {
-            wait(&simulation, ms(50));
-            simulation.machine().press(Button::Up);
-        })
-    };
+    let finger = aside(&simulation, move |simulation| {
+        wait(simulation, ms(50));
+        simulation.machine().press(Button::Up);
+    });
     call(&simulation, "");
     while !simulation.machine().is_pressed(Button::Up) {
         let end = now(&simulation) + ms(20);
@@ -609,14 +592,11 @@ fn a_hand_from_outside_needs_no_turn_and_takes_no_time() {
     let simulation = simulation(Clock::Virtual);
     call(&simulation, "hold the turn");
     let before = now(&simulation);
-    let hand = {
-        let simulation = Arc::clone(&simulation);
-        thread::spawn(move || {
-            ev3_sim::stay_outside(true);
-            call(&simulation, "reach in");
-            access::write(&simulation, "tacho-motor/motor1/command", "stop");
-        })
-    };
+    let hand = aside(&simulation, move |simulation| {
+        ev3_sim::stay_outside(true);
+        call(simulation, "reach in");
+        access::write(simulation, "tacho-motor/motor1/command", "stop");
+    });
     hand.join().unwrap();
     assert_eq!(now(&simulation), before);
 }

@@ -6,12 +6,11 @@ mod access;
 #[path = "it/robots.rs"]
 mod robots;
 
-use std::time::Duration;
-
 use ev3_sim::{
     Clock, Hull, Item, Machine, Options, Port, Pose, RobotSpec, Simulation, WorldSpec, robot_of,
 };
 use robots::default_robot;
+use std::time::Duration;
 
 const RADIUS: f64 = 8.0;
 

@@ -4,13 +4,12 @@
 #[path = "it/robots.rs"]
 mod robots;
 
-use std::os::unix::net::UnixStream;
-use std::thread;
-use std::time::Duration;
-
 use ev3_sim::far::wire::{Desk, Line, Next};
 use ev3_sim::{Clock, Errno, Simulation};
 use robots::default_machine;
+use std::os::unix::net::UnixStream;
+use std::thread;
+use std::time::Duration;
 
 /// Until then the other thread has had a processor.
 const WITHIN: Duration = Duration::from_secs(300);

@@ -6,7 +6,9 @@
 #[path = "it/robots.rs"]
 mod robots;
 
+use ev3_sim::{Button, Errno, Machine, Mount, MountError, Port, Shared, WorldSpec};
 use robots::{default_machine, default_robot};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Write};
 use std::os::unix::fs::{FileExt, MetadataExt, OpenOptionsExt};
@@ -16,9 +18,6 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
-
-use ev3_sim::{Button, Errno, Machine, Mount, MountError, Port, Shared, WorldSpec};
-use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
 /// A test that waits longer waits for what never comes, or the machine is much too busy.
 const GUARD: Duration = Duration::from_secs(300);

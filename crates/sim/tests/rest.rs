@@ -9,7 +9,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::thread;
 use std::time::{Duration, Instant};
-
 use threads::{Id, Threads};
 
 /// A thread that computes until it must sleep, and sleeps until it is woken.

@@ -25,9 +25,7 @@ fn never() -> bool {
 
 #[test]
 fn an_attribute_is_read_and_written_by_one_access_to_a_kept_descriptor() {
-    let tree = PlainTree::new();
-    tree.plug(Class::TachoMotor, "motor0", "outA", &[("speed_sp", "0")]);
-    let (counted, devices) = tree.counted();
+    let (_tree, counted, devices) = PlainTree::with_motor(&[("speed_sp", "0")]);
     let motor = devices.find(Class::TachoMotor, "outA").unwrap().unwrap();
     counted.opens();
     counted.reads_and_writes();
@@ -41,9 +39,7 @@ fn an_attribute_is_read_and_written_by_one_access_to_a_kept_descriptor() {
 
 #[test]
 fn a_constant_is_read_once() {
-    let tree = PlainTree::new();
-    tree.plug(Class::TachoMotor, "motor0", "outA", &[("max_speed", "1050")]);
-    let (counted, devices) = tree.counted();
+    let (_tree, counted, devices) = PlainTree::with_motor(&[("max_speed", "1050")]);
     let motor = devices.find(Class::TachoMotor, "outA").unwrap().unwrap();
     counted.reads_and_writes();
     for _ in 0..10 {

@@ -596,6 +596,13 @@ impl Brick {
         Arc::new(Self(Arc::new(Mutex::new(world)), Mutex::default()))
     }
 
+    /// A brick, and its devices.
+    pub(crate) fn with_devices(motors: &[&str]) -> (Arc<Self>, Arc<Registry>) {
+        let brick = Self::new(motors);
+        let devices = brick.devices();
+        (brick, devices)
+    }
+
     pub(crate) fn devices(self: &Arc<Self>) -> Arc<Registry> {
         Arc::new(Registry::new(Arc::<Self>::clone(self)))
     }

@@ -1,5 +1,4 @@
 //! Keys, speaker and screen over plain files and pipes.
-
 use ev3_driver::brick::buttons::{self as keys, Button, Event, Events};
 use ev3_driver::brick::screen;
 use ev3_driver::brick::screen::frame::{Frame, Shade, Shape, Style};

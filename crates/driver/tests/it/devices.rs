@@ -155,9 +155,7 @@ fn each_class_has_a_listing_of_its_own() {
 
 #[test]
 fn descriptors_are_kept_from_one_listing_to_the_next() {
-    let tree = PlainTree::new();
-    tree.plug(Class::TachoMotor, "motor0", "outA", &[("position", "5")]);
-    let (counted, devices) = tree.counted();
+    let (tree, counted, devices) = PlainTree::with_motor(&[("position", "5")]);
     let read = || devices.with(Class::TachoMotor, "outA", |motor| motor.number("position"));
     assert_eq!(read().unwrap(), Some(5));
     // The two that say who it is, and the position.
@@ -174,9 +172,7 @@ fn descriptors_are_kept_from_one_listing_to_the_next() {
 
 #[test]
 fn a_removed_device_is_gone_within_100_ms() {
-    let tree = PlainTree::new();
-    tree.plug(Class::TachoMotor, "motor0", "outA", &[("position", "5")]);
-    let (counted, devices) = tree.counted();
+    let (tree, counted, devices) = PlainTree::with_motor(&[("position", "5")]);
     let motor = devices.find(Class::TachoMotor, "outA").unwrap().unwrap();
     assert_eq!(motor.number("position").unwrap(), 5);
     assert!(devices.has(&motor).unwrap());
@@ -188,9 +184,7 @@ fn a_removed_device_is_gone_within_100_ms() {
 
 #[test]
 fn a_removed_device_that_is_used_before_is_gone_at_once() {
-    let tree = PlainTree::new();
-    tree.plug(Class::TachoMotor, "motor0", "outA", &[("position", "5")]);
-    let (counted, devices) = tree.counted();
+    let (tree, counted, devices) = PlainTree::with_motor(&[("position", "5")]);
     let read = || devices.with(Class::TachoMotor, "outA", |motor| motor.number("position"));
     assert_eq!(read().unwrap(), Some(5));
     tree.unplug(Class::TachoMotor, "motor0");
@@ -200,9 +194,7 @@ fn a_removed_device_that_is_used_before_is_gone_at_once() {
 
 #[test]
 fn a_kept_device_answers_enodev_once_it_is_removed() {
-    let tree = PlainTree::new();
-    tree.plug(Class::TachoMotor, "motor0", "outA", &[("position", "5")]);
-    let (counted, devices) = tree.counted();
+    let (tree, counted, devices) = PlainTree::with_motor(&[("position", "5")]);
     let motor = devices.find(Class::TachoMotor, "outA").unwrap().unwrap();
     motor.number("position").unwrap();
     motor.check_present().unwrap();
@@ -217,9 +209,7 @@ fn a_kept_device_answers_enodev_once_it_is_removed() {
 
 #[test]
 fn a_device_replugged_under_another_number_is_found_at_its_next_use() {
-    let tree = PlainTree::new();
-    tree.plug(Class::TachoMotor, "motor0", "outA", &[("position", "5")]);
-    let (counted, devices) = tree.counted();
+    let (tree, counted, devices) = PlainTree::with_motor(&[("position", "5")]);
     let read = || devices.with(Class::TachoMotor, "outA", |motor| motor.number("position"));
     assert_eq!(read().unwrap(), Some(5));
     tree.unplug(Class::TachoMotor, "motor0");
@@ -230,9 +220,8 @@ fn a_device_replugged_under_another_number_is_found_at_its_next_use() {
 
 #[test]
 fn a_device_replugged_under_the_same_name_and_inode_is_found_at_its_next_use() {
-    let tree = PlainTree::new();
-    tree.plug(Class::TachoMotor, "motor0", "outA", &[("position", "5"), ("max_speed", "900")]);
-    let (counted, devices) = tree.counted();
+    let (tree, counted, devices) =
+        PlainTree::with_motor(&[("position", "5"), ("max_speed", "900")]);
     let read = |name| devices.with(Class::TachoMotor, "outA", |motor| motor.constant(name));
     let motor = devices.find(Class::TachoMotor, "outA").unwrap().unwrap();
     assert_eq!(read("max_speed").unwrap(), Some(900));

@@ -63,6 +63,14 @@ impl PlainTree {
         Arc::new(Registry::new(Arc::new(SysfsDir::new(self.root()))))
     }
 
+    /// A tree with `motor0` at outA, and the same files counted.
+    pub(crate) fn with_motor(attributes: &[(&str, &str)]) -> (Self, Arc<Counted>, Arc<Registry>) {
+        let tree = Self::new();
+        tree.plug(Class::TachoMotor, "motor0", "outA", attributes);
+        let (counted, devices) = tree.counted();
+        (tree, counted, devices)
+    }
+
     /// The same files behind something that counts what is asked of them.
     pub(crate) fn counted(&self) -> (Arc<Counted>, Arc<Registry>) {
         let counted = Arc::new(Counted {

@@ -51,8 +51,7 @@ fn all_motors_get_their_speeds_before_the_first_starts() {
 
 #[test]
 fn motors_that_cannot_all_run_as_asked_are_left_alone() {
-    let brick = Brick::new(&["outB", "outC"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outB", "outC"]);
     for impossible in [run("outA", 50.0), run("outC", 101.0), run("outC", f64::NAN)] {
         assert!(
             run_forever(&devices, &[run("outB", 50.0), impossible], &mut || false)
@@ -70,8 +69,7 @@ fn motors_that_cannot_all_run_as_asked_are_left_alone() {
 
 #[test]
 fn a_speed_in_percent_is_rounded_down_to_whole_counts() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let devices = Brick::new(&["outA"]).devices();
     let motor = devices.find(Class::TachoMotor, "outA").unwrap().unwrap();
     let counts = |speed: Speed| speed.in_counts(&motor).unwrap();
     for (percent, expected) in [
@@ -120,8 +118,7 @@ fn a_motor_that_cannot_start_stops_those_that_did() {
 
 #[test]
 fn a_motor_replugged_since_the_last_look_is_found_under_its_new_number() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     assert!(run_forever(&devices, &[run("outA", 50.0)], &mut || false).unwrap().is_some());
     brick.world().motor("outA").is_unplugged = true;
     brick.world().plug_motor("outA");
@@ -132,8 +129,7 @@ fn a_motor_replugged_since_the_last_look_is_found_under_its_new_number() {
 
 #[test]
 fn a_move_writes_all_set_points_then_the_commands() {
-    let brick = Brick::new(&["outB", "outC"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outB", "outC"]);
     let options = MoveOptions { wait: false, ..MoveOptions::default() };
     let moves = [turn("outB", 50.0, 90.0), turn("ev3-ports:outC", 20.0, -90.0)];
     let reason = run_to(&devices, &moves, &options, &mut brick.attentive()).unwrap();
@@ -151,8 +147,7 @@ fn a_move_writes_all_set_points_then_the_commands() {
 
 #[test]
 fn a_move_takes_the_motors_to_the_angle_and_holds_them_there() {
-    let brick = Brick::new(&["outB", "outC"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outB", "outC"]);
     let moves = [turn("outB", 50.0, 360.0), turn("outC", 25.0, 180.0)];
     let reason = run_to(&devices, &moves, &MoveOptions::default(), &mut brick.attentive()).unwrap();
     assert_eq!(reason, Some(Reason::Reached));
@@ -189,8 +184,7 @@ fn an_angle_is_converted_by_the_counts_of_a_rotation() {
 
 #[test]
 fn an_impossible_move_writes_nothing() {
-    let brick = Brick::new(&["outB", "outC"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outB", "outC"]);
     for impossible in [
         turn("outA", 50.0, 90.0),
         turn("outC", 0.0, 90.0),
@@ -277,8 +271,7 @@ fn ramps_are_put_back_when_a_move_cannot_start() {
 
 #[test]
 fn a_motor_named_twice_is_refused_and_nothing_is_written() {
-    let brick = Brick::new(&["outA", "outB"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA", "outB"]);
     let asked = &mut brick.attentive();
     let moves = [turn("outA", 50.0, 90.0), turn("outB", 5.0, 9.0), turn("outA", 50.0, 90.0)];
     let error = run_to(&devices, &moves, &MoveOptions::default(), asked).unwrap_err();
@@ -385,8 +378,7 @@ fn moves_add_up_whatever_went_on_in_between() {
 
 #[test]
 fn a_new_zero_does_not_change_how_far_the_next_move_goes() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     let options = MoveOptions { stop_action: StopAction::Coast, ..MoveOptions::default() };
     let moves = [turn("outA", 20.0, 360.0)];
     run_to(&devices, &moves, &options, &mut brick.attentive()).unwrap().unwrap();
@@ -422,8 +414,7 @@ fn a_motor_is_stopped_even_if_it_has_not_the_action_asked_for() {
 
 #[test]
 fn one_motor_that_fails_does_not_keep_the_others_from_being_stopped() {
-    let brick = Brick::new(&["outA", "outB", "outC"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA", "outB", "outC"]);
     let runs = ["outA", "outB", "outC"].map(|port| run(port, 50.0));
     run_forever(&devices, &runs, &mut || false).unwrap();
     brick.world().motor("outB").refuses.push(("command", Errno::IO));
@@ -458,8 +449,7 @@ fn one_that_udev_never_opens_is_an_error_after_a_second() {
 
 #[test]
 fn a_motor_that_is_gone_needs_no_stop() {
-    let brick = Brick::new(&["outA", "outB"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA", "outB"]);
     run_forever(&devices, &[run("outA", 50.0), run("outB", 50.0)], &mut || false).unwrap();
     let all = motors(&devices, &["outA", "outB"]);
     brick.world().motor("outA").is_unplugged = true;
@@ -469,8 +459,7 @@ fn a_motor_that_is_gone_needs_no_stop() {
 
 #[test]
 fn what_was_started_and_only_that_is_stopped_at_the_end() {
-    let brick = Brick::new(&["outA", "outB", "outC", "outD"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA", "outB", "outC", "outD"]);
     let all = motors(&devices, &["outA", "outB", "outC", "outD"]);
     run_forever(&devices, &[run("outA", 50.0), run("outB", 50.0)], &mut || false).unwrap();
     stop(&all[1], StopAction::Coast).unwrap();
@@ -490,8 +479,7 @@ fn what_was_started_and_only_that_is_stopped_at_the_end() {
 
 #[test]
 fn a_reset_motor_need_not_be_stopped_and_a_gone_one_cannot() {
-    let brick = Brick::new(&["outA", "outB"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA", "outB"]);
     run_forever(&devices, &[run("outA", 50.0), run("outB", 50.0)], &mut || false).unwrap();
     reset(&motors(&devices, &["outA"])[0]).unwrap();
     brick.world().motor("outB").is_unplugged = true;
@@ -502,8 +490,7 @@ fn a_reset_motor_need_not_be_stopped_and_a_gone_one_cannot() {
 
 #[test]
 fn a_motor_that_could_not_be_stopped_is_tried_again() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     run_forever(&devices, &[run("outA", 50.0)], &mut || false).unwrap();
     brick.world().motor("outA").refuses.push(("command", Errno::IO));
     stop_started(&devices).unwrap_err();
@@ -514,16 +501,14 @@ fn a_motor_that_could_not_be_stopped_is_tried_again() {
 
 #[test]
 fn an_unknown_command_is_the_kernels_to_refuse() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let devices = Brick::new(&["outA"]).devices();
     let error = command(&motors(&devices, &["outA"])[0], "fly").unwrap_err();
     assert_eq!(error.errno(), Some(Errno::INVAL));
 }
 
 #[test]
 fn a_wait_knows_the_end_of_a_command_that_was_given_by_hand() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     let all = motors(&devices, &["outA"]);
     for (set_point, number, word) in
         [("position_sp", "300", "run-to-abs-pos"), ("time_sp", "400", "run-timed")]
@@ -540,8 +525,7 @@ fn a_wait_knows_the_end_of_a_command_that_was_given_by_hand() {
 
 #[test]
 fn a_wait_knows_where_a_relative_command_counts_from() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     let all = motors(&devices, &["outA"]);
     all[0].write("speed_sp", "500").unwrap();
     for distance in ["300", "-300"] {

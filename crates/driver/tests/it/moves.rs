@@ -18,8 +18,7 @@ fn go(port: &str, percent: f64, extent: Extent) -> Move<'_> {
 
 #[test]
 fn a_timed_run_ends_with_its_time() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     let moves = [go("outA", -50.0, Extent::For(ms(700)))];
     let ended = run_to(&devices, &moves, &MoveOptions::default(), &mut brick.attentive());
     assert_eq!(ended.unwrap(), Some(Reason::Reached));
@@ -29,8 +28,7 @@ fn a_timed_run_ends_with_its_time() {
 
 #[test]
 fn a_timed_run_that_somebody_stops_is_stopped() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     brick.at(ms(300), |world| world.motor("outA").be_stopped());
     let moves = [go("outA", 50.0, Extent::For(ms(700)))];
     let ended = run_to(&devices, &moves, &MoveOptions::default(), &mut brick.attentive());
@@ -39,8 +37,7 @@ fn a_timed_run_that_somebody_stops_is_stopped() {
 
 #[test]
 fn an_absolute_move_goes_there_from_either_side() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     for (percent, angle) in [(50.0, 200.0), (50.0, -100.0), (-50.0, 30.0), (50.0, 30.0)] {
         let moves = [go("outA", percent, Extent::To(angle))];
         let ended = run_to(&devices, &moves, &MoveOptions::default(), &mut brick.attentive());
@@ -53,8 +50,7 @@ fn an_absolute_move_goes_there_from_either_side() {
 
 #[test]
 fn an_impossible_move_writes_nothing() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     let day = Duration::from_secs(86_400);
     for (percent, way) in [
         (0.0, Extent::For(ms(100))),
@@ -81,8 +77,7 @@ fn an_impossible_move_writes_nothing() {
 
 #[test]
 fn without_regulation_the_duty_comes_first() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     assert!(run_direct(&devices, Class::TachoMotor, "outA", 33.5, &mut || false).unwrap());
     assert_eq!(brick.take_written(), ["outA duty_cycle_sp 34", "outA command run-direct"]);
     assert!(!run_direct(&devices, Class::TachoMotor, "outB", 5.0, &mut || false).unwrap());
@@ -90,8 +85,7 @@ fn without_regulation_the_duty_comes_first() {
 
 #[test]
 fn a_position_is_in_degrees_of_the_shaft() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let devices = Brick::new(&["outA"]).devices();
     let motor = devices.find(Class::TachoMotor, "outA").unwrap().unwrap();
     assert!(set_position(&motor, 90.4).unwrap());
     assert_eq!(measured(&motor, "position").unwrap(), Value::Integer(90));

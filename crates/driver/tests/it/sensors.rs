@@ -214,8 +214,7 @@ fn the_wait_for_a_sensor_can_be_interrupted() {
 #[test]
 fn files_that_udev_has_not_opened_yet_are_waited_for_one_second_from_the_plug_in() {
     for (opened, can_write) in [(ms(700), true), (ms(5000), false)] {
-        let brick = Brick::new(&[]);
-        let devices = brick.devices();
+        let (brick, devices) = Brick::with_devices(&[]);
         plug_color(&mut brick.world());
         brick.world().sensor("in1").closed_until = opened;
         let read = value(&brick, &devices, "in1", "COL-COLOR", 0);

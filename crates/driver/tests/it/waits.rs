@@ -34,8 +34,7 @@ fn each_reason_has_a_word_of_its_own() {
 
 #[test]
 fn a_wait_for_no_motor_or_one_at_rest_is_over_at_once() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     assert_eq!(wait(&brick, &devices, &[]), Reason::Reached);
     assert_eq!(wait(&brick, &devices, &["outA"]), Reason::Reached);
     assert!(brick.now() < ms(1), "waited until {:?}", brick.now());
@@ -43,8 +42,7 @@ fn a_wait_for_no_motor_or_one_at_rest_is_over_at_once() {
 
 #[test]
 fn a_wait_lasts_until_the_last_motor_is_done_and_hardly_longer() {
-    let brick = Brick::new(&["outA", "outB"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA", "outB"]);
     start(&devices, &["outA"], 100.0);
     start(&devices, &["outB"], 1000.0);
     assert_eq!(wait(&brick, &devices, &["outA", "outB"]), Reason::Reached);
@@ -117,8 +115,7 @@ fn a_slow_motor_that_is_blocked_is_noticed() {
 
 #[test]
 fn a_blocked_motor_ends_the_wait_for_all() {
-    let brick = Brick::new(&["outA", "outB"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA", "outB"]);
     start(&devices, &["outA", "outB"], 3000.0);
     brick.at(ms(500), |world| world.motor("outB").is_blocked = true);
     assert_eq!(wait(&brick, &devices, &["outA", "outB"]), Reason::Stalled);
@@ -138,8 +135,7 @@ fn a_blocked_motor_is_noticed_where_the_board_flags_no_stall() {
 
 #[test]
 fn a_motor_that_runs_for_ever_is_waited_for_until_the_time_is_up() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     let run = Run { port: "outA", speed: Speed::Percent(30.0) };
     run_forever(&devices, &[run], &mut || false).unwrap();
     let all = motors(&devices, &["outA"]);
@@ -154,8 +150,7 @@ fn a_motor_that_runs_for_ever_is_waited_for_until_the_time_is_up() {
 
 #[test]
 fn no_time_at_all_is_one_look() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     start(&devices, &["outA"], 1000.0);
     let all = motors(&devices, &["outA"]);
     let look = |brick: &Arc<Brick>| {
@@ -168,8 +163,7 @@ fn no_time_at_all_is_one_look() {
 
 #[test]
 fn an_unplugged_motor_ends_the_wait() {
-    let brick = Brick::new(&["outA", "outB"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA", "outB"]);
     start(&devices, &["outA", "outB"], 3000.0);
     brick.at(ms(500), |world| world.motor("outB").is_unplugged = true);
     assert_eq!(wait(&brick, &devices, &["outA", "outB"]), Reason::Unplugged);
@@ -178,8 +172,7 @@ fn an_unplugged_motor_ends_the_wait() {
 
 #[test]
 fn a_motor_that_somebody_else_stops_is_stopped_not_there() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let devices = Brick::new(&["outA"]).devices();
     let all = motors(&devices, &["outA"]);
     start(&devices, &["outA"], 3000.0);
     let mut asked = 0;
@@ -196,8 +189,7 @@ fn a_motor_that_somebody_else_stops_is_stopped_not_there() {
 
 #[test]
 fn a_motor_that_another_program_stops_is_stopped_not_there() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let devices = Brick::new(&["outA"]).devices();
     let all = motors(&devices, &["outA"]);
     start(&devices, &["outA"], 3000.0);
     let mut asked = 0;
@@ -214,8 +206,7 @@ fn a_motor_that_another_program_stops_is_stopped_not_there() {
 #[test]
 fn a_timed_run_that_is_stopped_before_its_time_is_stopped() {
     for (stop_at, expected) in [(ms(100), Reason::Stopped), (ms(600), Reason::Reached)] {
-        let brick = Brick::new(&["outA"]);
-        let devices = brick.devices();
+        let (brick, devices) = Brick::with_devices(&["outA"]);
         let all = motors(&devices, &["outA"]);
         all[0].write("speed_sp", "500").unwrap();
         all[0].write("time_sp", "500").unwrap();
@@ -257,8 +248,7 @@ fn a_board_that_shows_holding_together_with_running_is_done_when_it_is_there() {
 
 #[test]
 fn a_wait_can_be_interrupted_within_20_ms() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     start(&devices, &["outA"], 3000.0);
     let all = motors(&devices, &["outA"]);
     let started = brick.now();
@@ -269,8 +259,7 @@ fn a_wait_can_be_interrupted_within_20_ms() {
 
 #[test]
 fn absurd_times_are_long_and_no_more() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     start(&devices, &["outA"], 300.0);
     let all = motors(&devices, &["outA"]);
     let reason = wait_for(&devices, &all, Some(Duration::MAX), &mut brick.attentive()).unwrap();
@@ -281,8 +270,7 @@ fn absurd_times_are_long_and_no_more() {
 
 #[test]
 fn a_sleep_lasts_as_long_as_asked_and_asks_as_often_as_a_wait() {
-    let brick = Brick::new(&[]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&[]);
     for time in [ms(0), ms(1), ms(7), ms(20), ms(333)] {
         let started = brick.now();
         sleep(devices.tree(), time, &mut brick.attentive()).unwrap();
@@ -292,8 +280,7 @@ fn a_sleep_lasts_as_long_as_asked_and_asks_as_often_as_a_wait() {
 
 #[test]
 fn a_flag_is_waited_for_until_it_is_there() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     let motor = &motors(&devices, &["outA"])[0];
     start(&devices, &["outA"], 300.0);
     until_flag(&devices, motor, "holding", true).block(&mut brick.attentive()).unwrap();
@@ -317,8 +304,7 @@ fn the_end_of_running_is_not_seen_before_its_beginning() {
 
 #[test]
 fn a_run_that_was_seen_and_is_over_is_not_waited_for_any_longer() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     let motor = &motors(&devices, &["outA"])[0];
     motor.write("speed_sp", "500").unwrap();
     motor.write("time_sp", "40").unwrap();
@@ -329,8 +315,7 @@ fn a_run_that_was_seen_and_is_over_is_not_waited_for_any_longer() {
 
 #[test]
 fn a_command_that_never_shows_as_running_is_given_100_ms() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     let motor = &motors(&devices, &["outA"])[0];
     command(motor, "run-forever").unwrap();
     motor.write("command", "stop").unwrap();
@@ -342,8 +327,7 @@ fn a_command_that_never_shows_as_running_is_given_100_ms() {
 
 #[test]
 fn a_flag_of_an_unplugged_motor_is_an_error_that_names_it() {
-    let brick = Brick::new(&["outA"]);
-    let devices = brick.devices();
+    let (brick, devices) = Brick::with_devices(&["outA"]);
     let motor = &motors(&devices, &["outA"])[0];
     brick.at(ms(200), |world| world.motor("outA").is_unplugged = true);
     let error = until_flag(&devices, motor, "stalled", true).block(&mut brick.attentive());

@@ -1,13 +1,11 @@
 //! The brick's panel: its buttons, its speaker and its screen.
-
+use crate::brick::screen::{Depth, HEIGHT};
+use crate::ticks::TICK_US;
 use std::collections::VecDeque;
 use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
 use std::time::Duration;
-
-use crate::brick::screen::{Depth, HEIGHT};
-use crate::ticks::TICK_US;
 
 /// How many events a reader may be behind; evdev keeps about as many.
 const EVENTS: usize = 64;

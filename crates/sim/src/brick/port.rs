@@ -1,11 +1,9 @@
 //! The eight sockets of the brick, and the `lego-port` class that speaks for them.
-
-use std::fmt;
-use std::str::FromStr;
-
 use crate::files::attr::{Attr, Effect, Table, text, write_uevent};
 use crate::files::text::{name, word};
 use ev3_os::linux::Errno;
+use std::fmt;
+use std::str::FromStr;
 
 /// A socket: four inputs, four outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -1,14 +1,12 @@
 //! What happens periodically in simulated time.
-
+use crate::machine::Machine;
+use crate::shared::Shared;
 use ev3_os::locked;
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard};
 use std::thread::{self, ThreadId};
 use std::time::Duration;
-
-use crate::machine::Machine;
-use crate::shared::Shared;
 
 /// A periodic act in simulated time. It returns the time to its next run, or `None`
 /// if it ends.

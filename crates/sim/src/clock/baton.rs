@@ -9,15 +9,13 @@
 //! ([`Threads::rest`]). So a thread that was just created, or woken, comes to its place in line
 //! before time goes on, however slow this machine is. That is why a program with several threads
 //! does the same in each run.
-
+use super::threads::{self, Id, Threads};
 use ev3_os::Instant;
 use ev3_os::locked;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard};
 use std::thread::{self, Thread};
 use std::time::Duration;
-
-use super::threads::{self, Id, Threads};
 
 /// How long the first in line sleeps, by the wall clock, before it looks whether the others rest.
 /// It sleeps twice as long each time.

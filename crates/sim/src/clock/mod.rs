@@ -21,12 +21,6 @@ mod processor;
 mod threads;
 mod wall;
 
-use ev3_os::Instant;
-use std::cell::Cell;
-use std::sync::{Arc, MutexGuard};
-use std::time::Duration;
-use std::{fmt, io};
-
 use self::acts::PeriodicActs;
 use self::baton::{Baton, Wish};
 use self::pace::{Leave, Pace};
@@ -36,6 +30,11 @@ use crate::far::{Answer, Far, Kind, Question};
 use crate::machine::Machine;
 use crate::machine::crowd::{self, Misplaced};
 use crate::shared::{Crowd, Shared};
+use ev3_os::Instant;
+use std::cell::Cell;
+use std::sync::{Arc, MutexGuard};
+use std::time::Duration;
+use std::{fmt, io};
 
 pub use self::acts::Act;
 

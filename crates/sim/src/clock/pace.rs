@@ -2,7 +2,6 @@
 //!
 //! A virtual clock is held back between its steps, a wall clock gets another factor. Both can be
 //! paused. What a program does, and what it sees, is the same at any pace.
-
 use ev3_os::Instant;
 use ev3_os::locked;
 use std::sync::Mutex;

@@ -1,11 +1,9 @@
 //! The processor of a brick that is one of several in a world, on the virtual clock. What its
 //! program does takes no time of the others.
-
-use std::sync::{Arc, Mutex};
-use std::time::Duration;
-
 use crate::shared::Crowd;
 use ev3_os::locked;
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
 
 /// How far it may be behind with its accesses before the next call waits for it: a tick of the
 /// kernel's motor loop.

@@ -2,7 +2,6 @@
 //!
 //! A thread that can run is not asleep, also while other programs have the processors. Nothing
 //! here depends on how much wall time passes.
-
 use ev3_os::locked;
 use ev3_os::process_id;
 use ev3_os::processes::state_and_switches;

@@ -1,13 +1,11 @@
 //! The wall clock: a thread steps the machine.
-
+use super::acts::PeriodicActs;
+use crate::shared::{Crowd, Shared};
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
-
-use super::acts::PeriodicActs;
-use crate::shared::{Crowd, Shared};
 
 /// How often the machine is stepped.
 pub(super) const STEP: Duration = Duration::from_millis(2);

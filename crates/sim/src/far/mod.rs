@@ -10,13 +10,12 @@
 #[cfg(unix)]
 pub mod wire;
 
-use std::time::Duration;
-
 use crate::files::attr::Access;
 use crate::machine::dev::DevDescriptor;
 use crate::machine::tree::NodeId;
 use crate::machine::{Machine, Written};
 use ev3_os::linux::Errno;
+use std::time::Duration;
 
 /// Duration of a read on the virtual clock: that of a fast program on a brick.
 pub(crate) const READ_TAKES: Duration = Duration::from_micros(500);

@@ -8,17 +8,15 @@
 //! With its greeting the host sends a [`Mailbox`]. A program that takes it leaves its questions
 //! there and finds the answers, which is several times as fast; then the socket is only for
 //! waking: the host by [`WAKE`], the program by an empty answer.
-
+use super::{Answer, Far, Host, Kind, Question, nanos};
+use crate::machine::Machine;
+use ev3_os::locked;
+use ev3_os::mailbox::{Mailbox, Side, readable};
 use std::io::{self, ErrorKind, Read, Write};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
 use std::sync::Mutex;
 use std::time::Duration;
-
-use super::{Answer, Far, Host, Kind, Question, nanos};
-use crate::machine::Machine;
-use ev3_os::locked;
-use ev3_os::mailbox::{Mailbox, Side, readable};
 
 const HELLO: &[u8; 8] = b"ev3far1\n";
 

@@ -3,11 +3,9 @@
 //! A row says what the file is called, what may be done with it, and which two small functions
 //! stand behind it. Everything else (mode bits, open, stat, directory listings, the errors of an
 //! operation the attribute does not offer) follows from the row.
-
+use ev3_os::linux::Errno;
 use std::fmt::{Display, Write};
 use std::time::Duration;
-
-use ev3_os::linux::Errno;
 
 /// The allowed access to an attribute. Sysfs refuses anything else at `open`, even for root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

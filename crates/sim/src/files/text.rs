@@ -1,7 +1,6 @@
 //! The parsers that ev3dev's drivers put between a written text and a number. They differ:
 //! `docs/ev3dev-sysfs.md`, 0.3. Here are A (strict), B (lenient), C (the same without a sign) and
 //! W (words).
-
 use ev3_os::linux::Errno;
 
 /// What a driver sees of what was written: a text of C, which a NUL ends.

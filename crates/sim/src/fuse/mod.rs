@@ -11,6 +11,15 @@ mod files;
 mod open;
 mod served;
 
+use crate::machine::descriptor::Descriptor;
+use crate::machine::dev::DevDescriptor;
+use crate::shared::Shared;
+use files::Files;
+use fuser::{BackgroundSession, Config, MountOption, Session};
+use open::Open;
+use rustix::io::Errno;
+use rustix::mount::{UnmountFlags, unmount};
+use served::Served;
 use std::io;
 use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
@@ -19,17 +28,6 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
-
-use fuser::{BackgroundSession, Config, MountOption, Session};
-use rustix::io::Errno;
-use rustix::mount::{UnmountFlags, unmount};
-
-use crate::machine::descriptor::Descriptor;
-use crate::machine::dev::DevDescriptor;
-use crate::shared::Shared;
-use files::Files;
-use open::Open;
-use served::Served;
 
 const DEVICE: &str = "/dev/fuse";
 

@@ -3,19 +3,16 @@
 //! A process that waits for an answer cannot even be killed. So a reader is sent back every now and
 //! then as if by a signal (EINTR); programs and libraries then ask again. A writer is answered after
 //! some time even if on the machine's clock, which may stand still, it is not yet.
-
-use std::collections::HashMap;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
-
-use fuser::{Notifier, PollHandle, ReplyData, ReplyWrite};
-
 use super::served::Served;
 use crate::machine::Machine;
 use crate::shared::Shared;
 use ev3_os::linux::Errno;
 use ev3_os::locked;
+use fuser::{Notifier, PollHandle, ReplyData, ReplyWrite};
+use std::collections::HashMap;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// [`watch`] samples this often, in wall time, even if nothing wakes it.
 const LOOK: Duration = Duration::from_millis(100);

@@ -1,16 +1,13 @@
 //! The two trees that can be mounted, by what is open in them.
-
-use std::fmt::Debug;
-use std::time::Duration;
-
-use fuser::PollEvents;
-
 use crate::files::attr::Access;
 use crate::machine::descriptor::Descriptor;
 use crate::machine::dev::DevDescriptor;
 use crate::machine::tree::{Entry, NodeId, Stat};
 use crate::machine::{Machine, Written};
 use ev3_os::linux::Errno;
+use fuser::PollEvents;
+use std::fmt::Debug;
+use std::time::Duration;
 
 /// An open file, and the tree that it is in.
 pub(super) trait Served: Debug + Send + Sized + 'static {

@@ -2,14 +2,12 @@
 //!
 //! A robot that is alone takes it as if it had the world for itself. Those near each other take it
 //! as pairs (`mechanics::pair`). All see the others where they were after the last tick.
-
-use std::sync::Arc;
-use std::time::Duration;
-
 use crate::machine::Machine;
 use crate::mechanics::pair::{self, Rider};
 use crate::world::obstacle::Obstacle;
 use crate::world::{ItemId, SpecError};
+use std::sync::Arc;
+use std::time::Duration;
 
 /// Robots whose hulls may come nearer than this in a tick may touch, in cm. The fastest ones move
 /// by 0.4 cm.

@@ -1,5 +1,4 @@
 //! An open file, as the kernel sees it: what a `pread` and a `poll` on it do.
-
 use crate::files::attr::Access;
 use crate::machine::tree::NodeId;
 use crate::machine::{Machine, Written};

@@ -8,14 +8,12 @@
 //! The paths by which programs find an event device are links on a brick; here they are names of
 //! the same file. The calls behave like the kernel's evdev and fbmem (known in general,
 //! not read in their source).
-
-use std::sync::Arc;
-use std::time::Duration;
-
 use crate::brick::panel::{Button, ButtonEvent};
 use crate::machine::Machine;
 use crate::machine::tree::{Entry, FileKind, NodeId, Stat};
 use ev3_os::linux::Errno;
+use std::sync::Arc;
+use std::time::Duration;
 
 /// A device below `/dev`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,5 +1,4 @@
 //! The world as a file of facts.
-
 use crate::machine::Machine;
 use ev3_motion::{Bounds, Pose};
 

@@ -1,8 +1,4 @@
 //! The accesses of a program to the tree: look up, open, read, write, poll.
-
-use ev3_motion::Pose;
-use std::time::Duration;
-
 use crate::brick::port::Port;
 use crate::files::attr::{Access, Effect};
 use crate::machine::descriptor::Descriptor;
@@ -14,7 +10,9 @@ use crate::sense::View;
 use crate::sensor::{Link, Mode, Reading, SUPPLY_MV, Sensor};
 use crate::ticks::JIFFY_TICKS;
 use crate::trace::Action;
+use ev3_motion::Pose;
 use ev3_os::linux::Errno;
+use std::time::Duration;
 
 /// The place of a sensor at a port without a place in the robot's facts.
 const SPARE_MOUNT: Pose = Pose::new(0.0, 7.0, 0.0);

@@ -3,12 +3,10 @@
 //! wants it, as a sample costs as much as some ticks.
 //!
 //! A virtual clock jumps, so somebody who only looked now and then would miss what lies between.
-
-use ev3_motion::Pose;
-use std::time::Duration;
-
 use crate::brick::port::Port;
 use crate::log::Log;
+use ev3_motion::Pose;
+use std::time::Duration;
 
 /// How many samples are kept.
 const MOST: usize = 2048;

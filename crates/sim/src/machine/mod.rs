@@ -18,10 +18,6 @@ mod svg;
 mod time;
 pub(crate) mod tree;
 
-use ev3_motion::{OUT_OF_RANGE, Pose};
-use std::sync::Arc;
-use std::time::Duration;
-
 use crate::brick::output::Output;
 use crate::brick::panel::Panel;
 use crate::brick::port::{LegoPort, Port};
@@ -41,7 +37,10 @@ use crate::trace::{Collision, Trace};
 use crate::world::obstacle::Obstacle;
 use crate::world::scene::{Others, Scene};
 use crate::world::{Item, ItemId, Part, SpecError, WorldSpec};
+use ev3_motion::{OUT_OF_RANGE, Pose};
 use ev3_os::linux::Errno;
+use std::sync::Arc;
+use std::time::Duration;
 
 /// How faithful a run is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

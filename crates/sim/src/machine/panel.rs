@@ -1,11 +1,9 @@
 //! The actions and observations of a person at the brick: buttons, tones, speech.
-
-use std::time::Duration;
-
 use crate::brick::panel::{Button, ButtonEvent};
 use crate::machine::Machine;
 use crate::ticks::TICK_US;
 use crate::trace::Action;
+use std::time::Duration;
 
 /// How long speech takes, a letter; espeak says some 15 of them a second.
 const LETTER: Duration = Duration::from_millis(65);

@@ -1,7 +1,4 @@
 //! Wires that are pulled and put in, modes of ports, and other things that go wrong.
-
-use std::time::Duration;
-
 use crate::brick::Led;
 use crate::brick::output::{Output, Pins};
 use crate::brick::port::{LegoPort, Port};
@@ -17,6 +14,7 @@ use crate::ticks::{TICK_US, ticks_from_ms};
 use crate::trace::Action;
 use crate::world::SpecError;
 use ev3_os::linux::Errno;
+use std::time::Duration;
 
 /// udev needs about half a second to open the files of a new device to the group.
 const UDEV_MS: i32 = 500;

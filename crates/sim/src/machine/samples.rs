@@ -1,12 +1,10 @@
 //! The film of a run, taken and shown.
-
-use std::time::Duration;
-
 use crate::brick::port::Port;
 use crate::machine::Machine;
 use crate::machine::film::{Film, Sample, Values};
 use crate::machine::tree::Hardware;
 use crate::ticks::TICK_US;
+use std::time::Duration;
 
 impl Machine {
     /// Keeps samples from now on, or none.

@@ -2,7 +2,6 @@
 //!
 //! Nothing here changes the machine: no file is read, no time passes, and nothing is noted in the
 //! trace. So a run is the same whether somebody looks or not.
-
 use crate::brick::port::Port;
 use crate::brick::screen::{Depth, HEIGHT, WIDTH};
 use crate::machine::Machine;

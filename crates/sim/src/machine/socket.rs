@@ -5,7 +5,6 @@
 //! port then looks at single pins for some samples more. An I2C sensor gets a second to boot; a
 //! serial sensor introduces itself at 2400 baud, which takes about as long
 //! (`docs/ev3dev-sysfs.md`, 1).
-
 use crate::brick::output::Output;
 use crate::brick::port::Port;
 use crate::motor::MotorKind;

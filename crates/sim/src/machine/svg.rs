@@ -1,5 +1,4 @@
 //! A picture of the world, the way of the robot, and the robot.
-
 use crate::machine::Machine;
 use crate::world::{Hull, Item, Shape};
 use ev3_motion::{Bounds, Pose, Svg, points};

@@ -1,7 +1,4 @@
 //! How time passes: ticks of 2 ms, each the same however a caller slices his steps.
-
-use std::time::Duration;
-
 use crate::brick::output::{Bridge, Output};
 use crate::brick::port::Port;
 use crate::machine::Machine;
@@ -13,6 +10,7 @@ use crate::noise::Source;
 use crate::robot::Wheels;
 use crate::ticks::{JIFFY_TICKS, TICK_US};
 use crate::world::ItemId;
+use std::time::Duration;
 
 const OUTPUTS: [Port; 4] = [Port::OutA, Port::OutB, Port::OutC, Port::OutD];
 /// A clock that jumps is not asked to jump farther than this.

@@ -3,7 +3,6 @@
 //! A node's number is its inode number. It is made of the device's serial number, which is never
 //! used again, and the row of the attribute in its class's table; so nothing has to be stored, and
 //! a node of a device that is gone stays gone when another comes to the same port.
-
 use crate::brick::output::Output;
 use crate::brick::port::LegoPort;
 use crate::brick::{Battery, Board, Framebuffer, Led};

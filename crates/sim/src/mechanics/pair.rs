@@ -4,7 +4,6 @@
 //! body and shafts with friction at most their own, in all directions together; so a robot that is
 //! heavier, or whose motors are stronger, pushes the other one, and wheels spin. The tires of one
 //! that holds its motors let it slide.
-
 use super::{
     Body, CONTACT_OVER, Load, MARGIN, ROUNDS, SKIN, SOLVED, STRIDE, Speeds, Step, TICK_SECONDS,
     Touch, add, dot,

@@ -1,5 +1,4 @@
 //! A motor's output shaft: where it is, how fast it turns, what its motor does to it.
-
 use crate::brick::output::Bridge;
 use crate::mechanics::Load;
 use crate::motor::{Encoder, MOTOR_KINDS, MotorKind, RATED_VOLTS};

@@ -1,5 +1,4 @@
 //! The files of a tacho motor: `docs/ev3dev-sysfs.md`, 2.
-
 use super::kind::COUNT_PER_M;
 use super::{Command, StopAction, Tacho};
 use crate::files::attr::{Attr, Effect, Table, text, uevent, write_uevent};

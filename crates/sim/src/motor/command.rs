@@ -1,6 +1,5 @@
 //! The immediate effect of each command: `docs/ev3dev-sysfs.md`, 3.3. First the class, which knows
 //! commands, times and ramps; then the driver below it, which knows the wheel and the bridge.
-
 use super::{Command, Drive, Pid, Setpoints, StopAction, Tacho};
 use crate::brick::output::Pins;
 use crate::wheel::{Timer, jiffies_from_ms, jiffy};

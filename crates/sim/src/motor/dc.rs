@@ -5,7 +5,6 @@
 //! While a step is scheduled, a command or a new duty waits for it
 //! (`docs/ev3dev-sysfs.md`, 4.1). The class has a duty of its own, 0 at first; what the files show
 //! is that of the port, which outlives the motor.
-
 use crate::brick::output::{Output, Pins};
 use crate::brick::port::Port;
 use crate::files::attr::{Attr, Effect, Table, text, uevent, write_uevent};

@@ -7,7 +7,6 @@
 //! so far back is the same. So it lags, is coarse when slow, reads too little just after a start,
 //! and takes about 200 ms to reach zero after the wheel has stopped. Teeth that are not quite where they
 //! should be shift the counts; in the speed that cancels out, as four edges are a whole tooth.
-
 use crate::noise::Teeth;
 use crate::ticks::TICK_US;
 

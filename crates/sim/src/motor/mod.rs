@@ -15,14 +15,13 @@ mod ramp;
 mod sample;
 pub(crate) mod servo;
 
+use crate::brick::output::{Output, Pins};
+use crate::brick::port::Port;
+use crate::wheel::{Timer, jiffy};
 pub(crate) use encoder::Encoder;
 pub(crate) use kind::{COUNT_PER_M, RATED_VOLTS};
 pub use kind::{MOTOR_KINDS, MotorKind};
 use pid::Pid;
-
-use crate::brick::output::{Output, Pins};
-use crate::brick::port::Port;
-use crate::wheel::{Timer, jiffy};
 
 /// A blocked motor shows `stalled` after more than 100 ms at speed 0: the first sample begins them.
 const STALL_TICKS: u32 = 51;

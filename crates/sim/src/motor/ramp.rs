@@ -4,7 +4,6 @@
 //! one. A ramp whose ends have different signs has two legs, one to zero and one from there. All
 //! times are in jiffies. A step comes 100 ms after the time of the one before the last, so that
 //! they are 50 to 60 ms apart.
-
 use super::{Command, Ramp, Tacho};
 use crate::wheel::{Timer, jiffies_from_ms, jiffy};
 

@@ -4,7 +4,6 @@
 //! a pulse the servo floats. The driver keeps no position that it could show: it reads the pulse
 //! back, so that a floating servo is at -150 %, and one with another polarity at the opposite of
 //! what was written (`docs/ev3dev-sysfs.md`, 4.3).
-
 use crate::brick::port::Port;
 use crate::files::attr::{Attr, Effect, Table, text, uevent, write_uevent};
 use crate::files::text::{lenient_int_in, lenient_unsigned, word};

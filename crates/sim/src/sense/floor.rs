@@ -1,5 +1,4 @@
 //! Readings of the floor by sensors that are not LEGO's.
-
 use super::{View, whole};
 use crate::sensor::{Parts, Reading};
 use ev3_motion::Pose;

@@ -1,5 +1,4 @@
 //! Readings of beacons and remote controls by infrared sensors.
-
 use super::{View, whole};
 use crate::brick::remote::{CHANNELS, Remote};
 use crate::sensor::Reading;

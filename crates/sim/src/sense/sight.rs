@@ -1,5 +1,4 @@
 //! The shapes in which a sensor sees the world.
-
 use super::infrared::BEACON_FAR;
 use super::{
     BUMPER_HALF, INFRARED_FAR, INFRARED_HALF_ANGLE, INFRARED_RAYS, REFLECTOR_FAR, SONAR_FAR,

@@ -1,5 +1,4 @@
 //! The files of a sensor: `docs/ev3dev-sysfs.md`, 5.1.
-
 use super::Sensor;
 use crate::files::attr::{Attr, Table, text, uevent, write_uevent};
 use crate::files::text::word;

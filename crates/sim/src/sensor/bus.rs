@@ -4,7 +4,6 @@
 //! are. A write of the mode makes it be read at once, and from then on; each mode keeps what it
 //! was last read as. Without polling that one reading is done before the write returns, and it is
 //! still that of the mode before.
-
 use super::{Link, Reading, Sensor};
 use crate::files::attr::Effect;
 use crate::files::text::{lenient_unsigned, signed};

@@ -1,6 +1,5 @@
 //! The types of sensors, as data: how each is connected, and what it shows in each of
 //! its modes. `kinds` has the tables.
-
 use super::format::{Format, Reading, Scale};
 
 /// How a sensor talks to the brick.

@@ -19,13 +19,12 @@ pub(crate) use format::{Reading, SUPPLY_MV, SWITCHED_MV};
 pub use kind::{Link, SensorKind};
 pub(crate) use kind::{Mode, Parts, Sense};
 
-use std::time::Duration;
-
 use crate::brick::port::Port;
 use crate::files::attr::Effect;
 use crate::ticks::{JIFFY_TICKS, TICK_MS, milliseconds, ticks_from_ms};
 use crate::wheel::jiffy;
 use ev3_os::linux::Errno;
+use std::time::Duration;
 
 /// From a mode message to the first data of the new mode.
 const MODE_LATENCY_MS: i32 = 4;

@@ -1,8 +1,6 @@
 //! Every file of every class: mode bits, text after boot, what it refuses.
-
-use ev3_sim::{Access, Descriptor, Errno, FileKind, NodeId};
-
 use crate::desk::{B, Desk};
+use ev3_sim::{Access, Descriptor, Errno, FileKind, NodeId};
 
 /// Name, mode, text after boot (None: a read fails with the errno that follows).
 type Row = (&'static str, u16, Result<&'static str, Errno>);

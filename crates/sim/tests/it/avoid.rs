@@ -1,8 +1,6 @@
 //! The paper's obstacle avoidance in a room with walls and boxes.
-
-use crate::robots::default_robot;
-
 use crate::desk::{B, C, Desk, furnished};
+use crate::robots::default_robot;
 
 #[test]
 fn two_minutes_without_a_collision() {

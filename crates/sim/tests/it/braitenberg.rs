@@ -1,9 +1,7 @@
 //! Vehicles that are drawn to a lamp, or flee it: the paper's first programs.
-
+use crate::desk::{B, C, Desk};
 use crate::robots::{default_robot, wheels};
 use ev3_sim::{Bounds, Item, Pose, RobotSpec, Wheels, WorldSpec};
-
-use crate::desk::{B, C, Desk};
 
 const LAMP: [f64; 2] = [100.0, 120.0];
 

@@ -1,9 +1,7 @@
 //! `dc-motor`: duty and nothing else (`docs/ev3dev-sysfs.md`, 4.1).
-
+use crate::desk::Desk;
 use crate::robots::default_robot;
 use ev3_sim::{Errno, Item, Port, Pose, WorldSpec};
-
-use crate::desk::Desk;
 
 const M: &str = "dc-motor/motor0/";
 

@@ -1,10 +1,8 @@
 //! A brick on a desk, in the words of a shell.
-
 use crate::robots::default_robot;
+use ev3_sim::{Bounds, Errno, Item, Machine, Options, Pose, RobotSpec, WorldSpec, Written};
 use std::fmt::Display;
 use std::time::Duration;
-
-use ev3_sim::{Bounds, Errno, Item, Machine, Options, Pose, RobotSpec, WorldSpec, Written};
 
 /// outA, outB (left), outC (right) of the default robot.
 pub(crate) const A: &str = "tacho-motor/motor0/";

@@ -1,11 +1,8 @@
 //! Encoders whose teeth are not quite where they should be.
-
-use crate::robots::default_robot;
-use std::collections::{BTreeMap, BTreeSet};
-
-use ev3_sim::{Machine, Options, WorldSpec};
-
 use crate::desk::{A, B, C, Desk};
+use crate::robots::default_robot;
+use ev3_sim::{Machine, Options, WorldSpec};
+use std::collections::{BTreeMap, BTreeSet};
 
 fn desk_of(sigma: f64, seed: u64) -> Desk {
     let mut robot = default_robot();

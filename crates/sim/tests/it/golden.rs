@@ -1,11 +1,8 @@
 //! One long run whose every byte is fixed: the same on each machine, build and day.
-
-use crate::robots::default_robot;
-use std::fmt::Write;
-
-use ev3_sim::{Machine, Options};
-
 use crate::desk::{B, C, Desk, furnished};
+use crate::robots::default_robot;
+use ev3_sim::{Machine, Options};
+use std::fmt::Write;
 
 /// FNV-1a: small, and the same everywhere.
 fn digest(bytes: &[u8]) -> u64 {

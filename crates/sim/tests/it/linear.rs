@@ -1,8 +1,6 @@
 //! Linear actuators (`docs/ev3dev-sysfs.md`, 1, 2 and 2.1).
-
-use ev3_sim::{Errno, Port};
-
 use crate::desk::Desk;
+use ev3_sim::{Errno, Port};
 
 const L: &str = "tacho-motor/linear4/";
 

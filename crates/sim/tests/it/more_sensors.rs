@@ -1,13 +1,10 @@
 //! Sensors of the NXT and of other makers, beacons and remote controls.
-
+use crate::desk::{B, C, Desk};
 use crate::robots::{default_robot, touch_robot};
-use std::time::Duration;
-
 use ev3_sim::{
     Access, Descriptor, Errno, Item, Machine, Options, Port, Pose, RemoteButton, WorldSpec,
 };
-
-use crate::desk::{B, C, Desk};
+use std::time::Duration;
 
 const SENSOR: &str = "lego-sensor/sensor3/";
 

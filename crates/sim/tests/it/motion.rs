@@ -1,9 +1,7 @@
 //! The robot drives: distances, turns, walls.
-
+use crate::desk::{B, C, Desk};
 use crate::robots::{default_robot, wheels};
 use ev3_sim::{Bounds, Hull, Item, Pose, RobotSpec, Wheels, WorldSpec};
-
-use crate::desk::{B, C, Desk};
 
 /// Counts per cm of way with 5.6 cm wheels.
 const PER_CM: f64 = 360.0 / (std::f64::consts::PI * 5.6);

@@ -1,10 +1,8 @@
 //! The state machine of a tacho motor, transition by transition (`docs/ev3dev-sysfs.md`, 3).
-
+use crate::desk::{A, B, C, Desk};
 use ev3_sim::facts::Fact;
 use ev3_sim::{Access, Descriptor, Errno, Port};
 use ev3_sim::{MotorMount, Pose, RobotSpec, WorldSpec};
-
-use crate::desk::{A, B, C, Desk};
 
 #[test]
 fn running_shows_at_the_very_next_read() {

@@ -1,11 +1,8 @@
 //! Keys, speaker and screen, through the device files.
-
-use crate::robots::{default_machine, default_robot};
-use std::time::Duration;
-
-use ev3_sim::{Action, Button, Depth, DevDescriptor, Errno, Machine, Options};
-
 use crate::desk::furnished;
+use crate::robots::{default_machine, default_robot};
+use ev3_sim::{Action, Button, Depth, DevDescriptor, Errno, Machine, Options};
+use std::time::Duration;
 
 const KEYS: &str = "input/by-path/platform-gpio_keys-event";
 const SOUND: &str = "input/by-path/platform-sound-event";

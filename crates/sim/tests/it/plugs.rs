@@ -1,9 +1,7 @@
 //! Wires pulled and put in, and the modes of ports.
-
+use crate::desk::{B, C, Desk};
 use crate::robots::default_robot;
 use ev3_sim::{Access, Descriptor, Errno, Machine, Options, Port, WorldSpec};
-
-use crate::desk::{B, C, Desk};
 
 fn instant() -> Desk {
     let options = Options { instant: true, ..Options::default() };

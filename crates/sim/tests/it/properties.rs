@@ -1,13 +1,10 @@
 //! What holds for every program, every world and every slicing of time.
-
+use crate::desk::{A, B, C, Desk, furnished};
 use crate::robots::default_robot;
-use std::fmt::Write;
-use std::time::Duration;
-
 use ev3_sim::{Bounds, Hull, Item, Machine, Options, Port, Pose, RobotSpec, WorldSpec};
 use proptest::prelude::*;
-
-use crate::desk::{A, B, C, Desk, furnished};
+use std::fmt::Write;
+use std::time::Duration;
 
 const FLAGS: [&str; 5] = ["running", "ramping", "holding", "overloaded", "stalled"];
 

@@ -1,11 +1,8 @@
 //! Sensors against the geometry of a world, and the ways of their drivers.
-
-use crate::robots::{default_robot, touch_robot};
-use std::time::Duration;
-
-use ev3_sim::{Access, Descriptor, Errno, Item, Machine, Noise, Options, Port, Pose, WorldSpec};
-
 use crate::desk::{B, C, Desk};
+use crate::robots::{default_robot, touch_robot};
+use ev3_sim::{Access, Descriptor, Errno, Item, Machine, Noise, Options, Port, Pose, WorldSpec};
+use std::time::Duration;
 
 const SONAR: &str = "lego-sensor/sensor0/";
 const LEFT: &str = "lego-sensor/sensor1/";
@@ -32,82 +29,6 @@ fn mode(desk: &mut Desk, sensor: &str, name: &str) {
 
 fn value(desk: &mut Desk, sensor: &str, index: usize) -> i32 {
     desk.number(&format!("{sensor}value{index}"))
-}
-
-#[test]
-fn every_mode_says_what_the_sheet_says() {
-    // name, values, decimals, units, format
-    type Mode = (&'static str, usize, i32, &'static str, &'static str);
-    let sensors: &[(&str, &[Mode])] = &[
-        (
-            "lego-ev3-color",
-            &[
-                ("COL-REFLECT", 1, 0, "pct", "s8"),
-                ("COL-AMBIENT", 1, 0, "pct", "s8"),
-                ("COL-COLOR", 1, 0, "col", "s8"),
-                ("REF-RAW", 2, 0, "", "s16"),
-                ("RGB-RAW", 3, 0, "", "s16"),
-                ("COL-CAL", 4, 0, "", "s16"),
-            ],
-        ),
-        (
-            "lego-ev3-us",
-            &[
-                ("US-DIST-CM", 1, 1, "cm", "s16"),
-                ("US-DIST-IN", 1, 1, "in", "s16"),
-                ("US-LISTEN", 1, 0, "", "s8"),
-                ("US-SI-CM", 1, 1, "cm", "s16"),
-                ("US-SI-IN", 1, 1, "in", "s16"),
-                ("US-DC-CM", 1, 1, "cm", "s16"),
-                ("US-DC-IN", 1, 1, "in", "s16"),
-            ],
-        ),
-        (
-            "lego-ev3-gyro",
-            &[
-                ("GYRO-ANG", 1, 0, "deg", "s16"),
-                ("GYRO-RATE", 1, 0, "d/s", "s16"),
-                ("GYRO-FAS", 1, 0, "", "s16"),
-                ("GYRO-G&A", 2, 0, "", "s16"),
-                ("GYRO-CAL", 4, 0, "", "s16"),
-                ("TILT-RATE", 1, 0, "d/s", "s16"),
-                ("TILT-ANG", 1, 0, "deg", "s16"),
-            ],
-        ),
-        (
-            "lego-ev3-ir",
-            &[
-                ("IR-PROX", 1, 0, "pct", "s8"),
-                ("IR-SEEK", 8, 0, "pct", "s8"),
-                ("IR-REMOTE", 4, 0, "btn", "s8"),
-                ("IR-REM-A", 1, 0, "", "s16"),
-                ("IR-S-ALT", 4, 0, "pct", "s8"),
-                ("IR-CAL", 2, 0, "", "s32"),
-            ],
-        ),
-        ("lego-ev3-touch", &[("TOUCH", 1, 0, "", "s32")]),
-    ];
-    for (driver, modes) in sensors {
-        let mut desk = with_in4(driver, vec![]);
-        let names: Vec<&str> = modes.iter().map(|mode| mode.0).collect();
-        assert_eq!(desk.get(&format!("{GYRO}modes")), names.join(" "));
-        assert_eq!(desk.get(&format!("{GYRO}mode")), names[0], "the first is the default");
-        for (name, values, decimals, units, format) in *modes {
-            desk.put(&format!("{GYRO}mode"), name);
-            desk.step(300);
-            assert_eq!(desk.number(&format!("{GYRO}num_values")), i32::try_from(*values).unwrap());
-            assert_eq!(desk.number(&format!("{GYRO}decimals")), *decimals);
-            assert_eq!(desk.get(&format!("{GYRO}units")), *units);
-            assert_eq!(desk.get(&format!("{GYRO}bin_data_format")), *format);
-            for index in 0..8 {
-                let read = desk.try_get(&format!("{GYRO}value{index}"));
-                assert_eq!(read.is_ok(), index < *values, "{driver} {name} value{index}");
-                assert!(read.is_ok() || read == Err(Errno::ENXIO));
-            }
-            let node = desk.0.open(&format!("{GYRO}bin_data"), Access::ReadOnly).unwrap();
-            assert_eq!(desk.0.read(node).unwrap().len(), 32);
-        }
-    }
 }
 
 #[test]

@@ -1,8 +1,6 @@
 //! RC servos behind a controller (`docs/ev3dev-sysfs.md`, 4.3).
-
-use ev3_sim::{Errno, Port};
-
 use crate::desk::Desk;
+use ev3_sim::{Errno, Port};
 
 const S: &str = "servo-motor/motor0/";
 

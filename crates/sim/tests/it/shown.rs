@@ -1,11 +1,8 @@
 //! What is shown of the machine to those who look on.
-
-use std::time::Duration;
-
-use ev3_sim::{Item, Machine, Options, Pose, Sample, Shown, Sight, WorldSpec};
-
 use crate::desk::furnished;
 use crate::robots::default_robot;
+use ev3_sim::{Item, Machine, Options, Pose, Sample, Shown, Sight, WorldSpec};
+use std::time::Duration;
 
 fn machine() -> Machine {
     Machine::new(&furnished(), &default_robot(), Options::default()).unwrap()

@@ -1,10 +1,8 @@
 //! The robot at walls: it slides along them, never enters one, and comes off again.
-
+use crate::desk::{B, C, Desk};
 use crate::robots::{default_robot, wheels};
 use ev3_sim::{Bounds, Hull, Item, Machine, Pose, RobotSpec, Wheels, WorldSpec};
 use proptest::prelude::*;
-
-use crate::desk::{B, C, Desk};
 
 /// A wall along the y axis, 1 cm thick, and the robot left of it.
 fn beside_a_wall(heading: f64) -> Desk {

@@ -1,13 +1,11 @@
 //! Ground truth: items, collisions, snapshots, trace, picture.
-
+use crate::desk::{B, C, Desk, furnished};
 use crate::robots::{default_robot, wheels, with_axle};
 use ev3_sim::facts::{Fact, Form, Kind, Subject, Value, culprit};
 use ev3_sim::{
     Action, Bounds, Drawing, Hull, Item, ItemId, Machine, MotorMount, Options, Port, Pose,
     RobotSpec, WorldSpec,
 };
-
-use crate::desk::{B, C, Desk, furnished};
 
 #[test]
 fn impossible_worlds_and_robots_are_named() {

@@ -1,5 +1,4 @@
 //! The sensors of the EV3 sets: `docs/ev3dev-sysfs.md`, 5.4.
-
 use crate::sensor::format::{Format, Scale};
 use crate::sensor::kind::{Mode, Sense, SensorKind};
 

@@ -1,7 +1,6 @@
 //! LEGO's sensors for the NXT, and others that only give a voltage: `docs/ev3dev-sysfs.md`, 5.5.
 //! How each mode shows the raw data is from the kernel's `nxt_analog_sensor_defs.c` and
 //! `nxt_i2c_sensor_defs.c`.
-
 use crate::sensor::format::{Format, Scale};
 use crate::sensor::kind::{Link, Mode, Sense, SensorKind};
 

@@ -1,7 +1,6 @@
 //! Sensors of `HiTechnic`, mindsensors and others on the I2C bus: `docs/ev3dev-sysfs.md`, 5.5.
 //! Addresses, commands and how each mode shows the raw data are from the kernel's
 //! `nxt_i2c_sensor_defs.c`. A sensor of something that this world lacks always shows the same.
-
 use crate::sensor::format::{Format, Scale};
 use crate::sensor::kind::{Mode, Parts, Sense, SensorKind};
 
