@@ -73,6 +73,7 @@ pub extern "C" fn install() {
     drive::register();
     view::register();
     view::door::register();
+    view::frame::register();
     view::hand::register();
     view::located::register();
     #[cfg(feature = "sim")]

@@ -1,8 +1,10 @@
 //! Frames: what a page is sent, beginning with what it has not got yet.
 use super::notes::notes;
 use super::state::{Clock, Decimal, Report, Samples};
-use super::{brick, simulated};
+use super::{brick, door, simulated};
+use crate::glue::call::Call;
 use crate::glue::state::{chosen_devices, devices, watched};
+use crate::glue::terms::unify_atom;
 use crate::sim::watched_simulation;
 use ev3_json::Json;
 use ev3_os::Instant;
@@ -13,6 +15,22 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
+use swipl::prelude::*;
+
+natives! {
+    /// view_frame_(+Page, +Have, +State, +Rate, +Goals): sends a page that has some the next frame.
+    /// State is that of the program; Rate and Goals are the page's settings.
+    semidet fn "view_frame_"(context, page, have, state, rate, goals) {
+        let call = Call::of(context, "view", 1);
+        let (have, state, rate) = (call.text(have)?, call.text(state)?, call.float(rate)?);
+        door::say(&call, page, &next(&have, &state, rate, goals.get_ex()?))
+    }
+
+    /// view_source_(-Source): `sim`, `brick` or `none`.
+    semidet fn "view_source_"(_context, source) {
+        unify_atom(source, Source::now().name())
+    }
+}
 
 /// What a page has: counts of what was sent, in the order of the fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -82,14 +100,9 @@ impl Source {
     }
 }
 
-/// The name of what is watched.
-pub(super) fn source() -> &'static str {
-    Source::now().name()
-}
-
 /// The next frame for a page that has some. `program` is its state; at most `rate` frames come
 /// in a second, and `goals` may be sent or not.
-pub(super) fn next(have: &str, program: &str, rate: f64, goals: bool) -> String {
+fn next(have: &str, program: &str, rate: f64, goals: bool) -> String {
     let had = have.parse::<Have>().ok();
     let (film, source) = (watched().film(), Source::now());
     let is_new = had.is_none_or(|had| had.film != film);

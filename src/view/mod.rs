@@ -9,7 +9,7 @@ pub(crate) mod door;
 #[cfg(not(unix))]
 #[path = "page.rs"]
 pub(crate) mod door;
-mod frame;
+pub(crate) mod frame;
 pub(crate) mod hand;
 pub(crate) mod located;
 mod notes;
@@ -25,7 +25,6 @@ use self::reach::{keep_samples, seconds, stop_motors};
 use self::state::{Decimal, Entry};
 use crate::glue::call::Call;
 use crate::glue::state::{has_tree, show_brick};
-use crate::glue::terms::unify_atom;
 use crate::glue::watch;
 use crate::sim::running_simulations;
 use ev3_signals::latch::{self, Reason};
@@ -72,14 +71,6 @@ natives! {
     semidet fn "view_has_robot_"(context, number) {
         let number = Call::of(context, "view", 1).integer(number)?;
         into_prolog_result(u32::try_from(number).is_ok_and(has_tree))
-    }
-
-    /// view_frame_(+Page, +Have, +State, +Rate, +Goals): sends a page that has some the next frame.
-    /// State is that of the program; Rate and Goals are the page's settings.
-    semidet fn "view_frame_"(context, page, have, state, rate, goals) {
-        let call = Call::of(context, "view", 1);
-        let (have, state, rate) = (call.text(have)?, call.text(state)?, call.float(rate)?);
-        door::say(&call, page, &frame::next(&have, &state, rate, goals.get_ex()?))
     }
 
     /// view_keep_(+Name, +Json): a member of the frames that is sent when it has changed.
@@ -171,10 +162,5 @@ natives! {
     semidet fn "view_part_"(_context) {
         watch::note_user();
         into_prolog_result(true)
-    }
-
-    /// view_source_(-Source): `sim`, `brick` or `none`.
-    semidet fn "view_source_"(_context, source) {
-        unify_atom(source, frame::source())
     }
 }

@@ -206,6 +206,9 @@
             % src/view/door.rs
             view_hear_/3,               % +Page, +Seconds, -Line
             view_say_/2,                % +Page, +Json
+            % src/view/frame.rs
+            view_frame_/5,              % +Page, +Have, +State, +Rate, +Goals
+            view_source_/1,             % -Source
             % src/view/hand.rs
             view_pace_/1,               % +Factor
             view_pause_/1,              % +Pauses
@@ -225,7 +228,6 @@
             view_thread_/1,             % +Serves
             view_show_/1,               % +Brick
             view_has_robot_/1,          % +Brick
-            view_frame_/5,              % +Page, +Have, +State, +Rate, +Goals
             view_keep_/2,               % +Name, +Json
             view_log_/6,                % +Time, +Kind, +Text, +Causes, ..
             view_value_/2,              % +Name, +Number
@@ -237,8 +239,7 @@
             view_users_/1,              % -Threads
             view_serves_/0,
             view_to_world_/5,           % +X, +Y, -WorldX, -WorldY, -Turn
-            view_part_/0,
-            view_source_/1              % -Source
+            view_part_/0
           ]).
 :- use_module('../errors/errors', []).
 :- use_module(library_file, [check_natives/1]).
