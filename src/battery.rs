@@ -1,5 +1,4 @@
 //! `prolog/ev3dev/battery.pl`: the battery.
-use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
 use crate::glue::terms::unify_value;
 use ev3_driver::Value;
@@ -8,8 +7,7 @@ use swipl::prelude::*;
 
 natives! {
     /// battery_(+Key, -Value)
-    semidet fn "battery_"(context, key, value) {
-        let call = Call::of(context, "battery", 2);
+    semidet fn "battery_"(context, key, value) as call("battery", 2) {
         let (name, devices) = (call.text(key)?, call.devices()?);
         let battery = call.or_throw(battery::battery(&devices))?;
         let battery = &battery.map_or_else(|| call.lacking("battery"), Ok)?;

@@ -1,5 +1,4 @@
 //! `prolog/ev3dev/bricks.pl`, `private/run/brick.pl`: which brick predicates are about.
-use crate::glue::call::Call;
 use crate::glue::{due, state, waiting};
 use ev3_driver::motor;
 use swipl::prelude::*;
@@ -11,8 +10,8 @@ natives! {
     }
 
     /// brick_use_(+Number): fails if that is not open.
-    semidet fn "brick_use_"(context, number) {
-        let number = Call::of(context, "use_brick", 1).integer(number)?;
+    semidet fn "brick_use_"(context, number) as call("use_brick", 1) {
+        let number = call.integer(number)?;
         let is_open = u32::try_from(number).is_ok_and(state::use_brick);
         // Its clock may be another one, and what was planned by it may be due.
         waiting::tick_at_once();
@@ -26,8 +25,7 @@ natives! {
     }
 
     /// brick_close_(+Number): stops its motors, and ends its simulation; fails if it is not open.
-    semidet fn "brick_close_"(context, number) {
-        let call = Call::of(context, "brick_close", 1);
+    semidet fn "brick_close_"(context, number) as call("brick_close", 1) {
         let number = u32::try_from(call.integer(number)?).map_err(|_| PrologError::Failure)?;
         let closed = state::close_brick(number).ok_or(PrologError::Failure)?;
         crate::sim::end_of(number);
@@ -35,8 +33,7 @@ natives! {
     }
 
     /// stop_all_bricks_: stops all motors that are connected to the bricks in use.
-    semidet fn "stop_all_bricks_"(context) {
-        let call = Call::of(context, "stop_all_bricks", 0);
+    semidet fn "stop_all_bricks_"(context) as call("stop_all_bricks", 0) {
         let stop = |devices: &_| motor::stop_connected(devices, &mut call.interrupted());
         call.or_throw(state::on_all_bricks(stop))
     }

@@ -10,8 +10,7 @@ use swipl::prelude::*;
 
 natives! {
     /// buttons_(-Keys)
-    semidet fn "buttons_"(context, keys) {
-        let call = Call::of(context, "button", 1);
+    semidet fn "buttons_"(context, keys) as call("button", 1) {
         let pressed = call.or_throw(keys::pressed(&*call.dev()?))?;
         let pressed = pressed.map_or_else(|| call.lacking("buttons"), Ok)?;
         let words: Vec<_> = pressed.into_iter().map(|key| atomable(key.word())).collect();
@@ -20,37 +19,34 @@ natives! {
 
     /// button_wait_(?Key, ?Event, +Timeout, -Reason): `over` at the end. Fails if the time
     /// is up before.
-    nondet fn "button_wait_"<UntilEvent>(context, key, event, timeout, reason) {
+    nondet fn "button_wait_"<UntilEvent>(context, key, event, timeout, reason) as call("button_wait", 3) {
         setup => {
-            let call = Call::of(context, "button_wait", 3);
             let (wanted, is_press) = (key_of(&call, key)?, is_press_of(&call, event)?);
             let timeout = call.seconds(timeout)?;
             let events = Arc::new(events_from_now(&call)?);
             Ok(Some(events.until_next(wanted, is_press, timeout)))
         },
         call(waiting) => {
-            next_event(&Call::of(context, "button_wait", 3), waiting, key, event, reason)
+            next_event(&call, waiting, key, event, reason)
         }
     }
 
     /// button_source_(-Source)
-    semidet fn "button_source_"(context, source) {
-        let call = Call::of(context, "button_events", 1);
+    semidet fn "button_source_"(context, source) as call("button_events", 1) {
         let events = events_from_now(&call)?;
         source.unify(Source::open(events))
     }
 
     /// button_event_(+Source, +Index, -Key, -Event, -Reason): `over` at the end.
-    nondet fn "button_event_"<UntilEvent>(context, source, index, key, event, reason) {
+    nondet fn "button_event_"<UntilEvent>(context, source, index, key, event, reason) as call("button_events", 1) {
         setup => {
-            let call = Call::of(context, "button_events", 1);
             let source: Arc<Source> = source.get_ex()?;
             let index = usize::try_from(call.integer(index)?).map_err(|_| PrologError::Failure)?;
             let events = source.events().ok_or(PrologError::Failure)?;
             Ok(Some(events.until_nth(index)))
         },
         call(waiting) => {
-            next_event(&Call::of(context, "button_events", 1), waiting, key, event, reason)
+            next_event(&call, waiting, key, event, reason)
         }
     }
 }

@@ -1,5 +1,4 @@
 //! `prolog/ev3dev/dc_motors.pl`: motors without a rotation sensor.
-use crate::glue::call::Call;
 use crate::motors::move_options;
 use ev3_driver::motor::{Moving, dc};
 use ev3_driver::wait::Slices;
@@ -7,8 +6,7 @@ use swipl::prelude::*;
 
 natives! {
     /// dc_motor_run_(+Port, +Percent)
-    semidet fn "dc_motor_run_"(context, port, percent) {
-        let call = Call::of(context, "dc_motor_run", 2);
+    semidet fn "dc_motor_run_"(context, port, percent) as call("dc_motor_run", 2) {
         let (port, percent) = (call.text(port)?, call.float(percent)?);
         let (devices, interrupted) = (call.devices_to_move()?, &mut call.interrupted());
         into_prolog_result(call.or_throw(dc::run_forever(&devices, &port, percent, interrupted))?)
@@ -16,9 +14,8 @@ natives! {
 
     /// dc_motor_run_timed_(+Port, +Percent, +Seconds, +Options, -Reason): options
     /// as those of motor_turn_/3.
-    nondet fn "dc_motor_run_timed_"<Slices<Moving>>(context, port, percent, seconds, options, reason) {
+    nondet fn "dc_motor_run_timed_"<Slices<Moving>>(context, port, percent, seconds, options, reason) as call("dc_motor_run_timed", 4) {
         setup => {
-            let call = Call::of(context, "dc_motor_run_timed", 4);
             let (port, percent) = (call.text(port)?, call.float(percent)?);
             let (time, options) = (call.time(seconds)?, move_options(&call, options)?);
             let (devices, interrupted) = (call.devices_to_move()?, &mut call.interrupted());
@@ -26,7 +23,7 @@ natives! {
             call.or_fail(begun).map(Some)
         },
         call(moving) => {
-            Call::of(context, "dc_motor_run_timed", 4).slice_of_move(moving, reason)
+            call.slice_of_move(moving, reason)
         }
     }
 }

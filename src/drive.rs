@@ -20,14 +20,12 @@ use swipl::prelude::*;
 
 natives! {
     /// odometry_(+Robot): starts the odometry if it does not run yet.
-    semidet fn "odometry_"(context, robot) {
-        let call = Call::of(context, "set_robot", 4);
+    semidet fn "odometry_"(context, robot) as call("set_robot", 4) {
         into_prolog_result(call.or_throw(robots_drive(&call, robot)?.start())?)
     }
 
     /// pose_(+Robot, +UseGyro, -X, -Y, -Heading)
-    semidet fn "pose_"(context, robot, use_gyro, x, y, heading) {
-        let call = Call::of(context, "pose", 3);
+    semidet fn "pose_"(context, robot, use_gyro, x, y, heading) as call("pose", 3) {
         let drive = drive_of(&call, robot, use_gyro)?;
         let pose = call.or_fail(drive.pose())?;
         x.unify(pose.x)?;
@@ -36,8 +34,7 @@ natives! {
     }
 
     /// set_pose_(+Robot, +UseGyro, +X, +Y, +Heading)
-    semidet fn "set_pose_"(context, robot, use_gyro, x, y, heading) {
-        let call = Call::of(context, "set_pose", 3);
+    semidet fn "set_pose_"(context, robot, use_gyro, x, y, heading) as call("set_pose", 3) {
         let drive = drive_of(&call, robot, use_gyro)?;
         let pose = Pose { x: call.float(x)?, y: call.float(y)?, heading: call.float(heading)? };
         let is_set = call.or_throw(drive.set_pose(pose))?;
@@ -46,8 +43,7 @@ natives! {
     }
 
     /// pose_uncertainty_(+Robot, +UseGyro, -Rows)
-    semidet fn "pose_uncertainty_"(context, robot, use_gyro, rows) {
-        let call = Call::of(context, "pose_uncertainty", 1);
+    semidet fn "pose_uncertainty_"(context, robot, use_gyro, rows) as call("pose_uncertainty", 1) {
         let drive = drive_of(&call, robot, use_gyro)?;
         let covariance = call.or_fail(drive.uncertainty())?;
         let lists = covariance.map(|row| call.floats(&row)).into_iter();
@@ -55,16 +51,15 @@ natives! {
     }
 
     /// heading_wrapped_(+Heading, -Wrapped)
-    semidet fn "heading_wrapped_"(context, heading, result) {
-        result.unify(wrapped(Call::of(context, "heading_wrapped", 2).float(heading)?))
+    semidet fn "heading_wrapped_"(context, heading, result) as call("heading_wrapped", 2) {
+        result.unify(wrapped(call.float(heading)?))
     }
 
     /// drive_(+Robot, +Course, +Options, -Reason): options is
     /// `options(Percent, Acceleration, StopAction, UseGyro, Wait, Timeout)`. Who leaves
     /// the wait ends the motion.
-    nondet fn "drive_"<Option<Slices<UntilEnded>>>(context, robot, course, options, reason) {
+    nondet fn "drive_"<Option<Slices<UntilEnded>>>(context, robot, course, options, reason) as call("go_to", 4) {
         setup => {
-            let call = Call::of(context, "go_to", 4);
             let (course, drive) = (course_of(&call, course)?, robots_drive(&call, robot)?);
             call.may_move()?;
             // The course says more than the name of one of its predicates.
@@ -76,21 +71,20 @@ natives! {
         },
         call(waiting) => {
             match waiting {
-                Some(waiting) => Call::of(context, "go_to", 4).slice_of_move(waiting, reason),
+                Some(waiting) => call.slice_of_move(waiting, reason),
                 None => unify_atom(reason, Reason::Reached.word()).map(|()| false),
             }
         }
     }
 
     /// drive_wait_(+Robot, +Timeout, -Reason)
-    nondet fn "drive_wait_"<Slices<UntilEnded>>(context, robot, timeout, reason) {
+    nondet fn "drive_wait_"<Slices<UntilEnded>>(context, robot, timeout, reason) as call("drive_wait", 2) {
         setup => {
-            let call = Call::of(context, "drive_wait", 2);
             let (timeout, drive) = (call.seconds(timeout)?, robots_drive(&call, robot)?);
             Ok(Some(drive.until_last_ended(timeout)))
         },
         call(waiting) => {
-            Call::of(context, "drive_wait", 2).slice_of_move(waiting, reason)
+            call.slice_of_move(waiting, reason)
         }
     }
 }

@@ -13,14 +13,14 @@ use swipl::prelude::*;
 
 natives! {
     /// device_(+Class, ?Port, ?Type): the native twin of `tacho_motor/2` and the like.
-    nondet fn "device_"<Found>(context, class, port, kind) {
+    nondet fn "device_"<Found>(context, class, port, kind) as call("tacho_motor", 2) {
         setup => {
             let found = found(context, class, port, kind)?;
             Ok(Some(found))
         },
         call(found) => {
             let Found { devices, names_port, names_type } = found;
-            Call::of(context, "tacho_motor", 2).next(devices, |_| Ok(()), |device, ()| {
+            call.next(devices, |_| Ok(()), |device, ()| {
                 unify_asked(*names_port, port, device.port())?;
                 unify_asked(*names_type, kind, device.driver())
             })
@@ -28,10 +28,10 @@ natives! {
     }
 
     /// device_(+Class, ?Port, ?Type, ?Path)
-    nondet fn "device_"<Found>(context, class, port, kind, path) {
+    nondet fn "device_"<Found>(context, class, port, kind, path) as call("tacho_motor", 3) {
         setup => {
             let mut found = found(context, class, port, kind)?;
-            if let Some(path) = Call::of(context, "tacho_motor", 3).text_if_bound(path)? {
+            if let Some(path) = call.text_if_bound(path)? {
                 let is_it = |device: &Arc<Device>| *device.path().to_string_lossy() == *path;
                 found.devices = found.devices.filter(is_it).collect();
             }
@@ -39,7 +39,7 @@ natives! {
         },
         call(found) => {
             let Found { devices, names_port, names_type } = found;
-            Call::of(context, "tacho_motor", 3).next(devices, |_| Ok(()), |device, ()| {
+            call.next(devices, |_| Ok(()), |device, ()| {
                 unify_asked(*names_port, port, device.port())?;
                 unify_asked(*names_type, kind, device.driver())?;
                 unify_asked(path.is_var(), path, &device.path().to_string_lossy())

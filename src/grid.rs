@@ -7,8 +7,7 @@ use swipl::prelude::*;
 natives! {
     /// grid_drawn_(+Rows, -Drawn): drawn(Width, Height, Obstructed, Start), where start is
     /// start(Cell, Heading) or `none`, and a cell is `[X, Y]`.
-    semidet fn "grid_drawn_"(context, rows, drawn) {
-        let call = Call::of(context, "grid_map", 2);
+    semidet fn "grid_drawn_"(context, rows, drawn) as call("grid_map", 2) {
         let (_, drawing) = drawing(&call, rows)?;
         let cells = drawing.obstructed().map(|cell| cell_term(&call, cell));
         let obstructed = context.new_term_ref();

@@ -1,5 +1,4 @@
 //! `prolog/ev3dev/private/run/halt.pl`: stops motors when a program ends.
-use crate::glue::call::Call;
 use crate::glue::state::{self, all_devices, on_all_bricks};
 use ev3_driver::{Registry, motor};
 use ev3_signals::latch::Reason;
@@ -54,13 +53,13 @@ natives! {
     }
 
     /// stop_started_: stops the motors that the program started.
-    semidet fn "stop_started_"(context) {
-        Call::of(context, "halt", 0).or_throw(on_all_bricks(motor::stop_started))
+    semidet fn "stop_started_"(context) as call("halt", 0) {
+        call.or_throw(on_all_bricks(motor::stop_started))
     }
 
     /// halts_by_(+Signal): Prolog halts because of a signal, `term`, `hup` or `int`.
-    semidet fn "halts_by_"(context, signal) {
-        let signal = Call::of(context, "halt", 0).text(signal)?;
+    semidet fn "halts_by_"(context, signal) as call("halt", 0) {
+        let signal = call.text(signal)?;
         ev3_signals::halts(&signal);
         Ok(())
     }

@@ -38,26 +38,24 @@ natives! {
     }
 
     /// cause_set_(+Cause)
-    semidet fn "cause_set_"(context, cause) {
-        set_cause(number(&Call::of(context, "because", 2), cause)?);
+    semidet fn "cause_set_"(context, cause) as call("because", 2) {
+        set_cause(number(&call, cause)?);
         Ok(())
     }
 
     /// cause_active_(+Cause): some thread or engine still acts for it.
-    semidet fn "cause_active_"(context, cause) {
-        let cause = number(&Call::of(context, "because", 2), cause)?;
+    semidet fn "cause_active_"(context, cause) as call("because", 2) {
+        let cause = number(&call, cause)?;
         into_prolog_result(locked(&ACTIVE).contains(&cause))
     }
 
     /// journal_entry_(-Time, -Act, -Cause, -Called): the last first. Called is
     /// `Name/Arity`, or `none`.
-    nondet fn "journal_entry_"<std::vec::IntoIter<Entry>>(context, time, act, cause, called) {
+    nondet fn "journal_entry_"<std::vec::IntoIter<Entry>>(context, time, act, cause, called) as call("journal", 1) {
         setup => {
-            let call = Call::of(context, "journal", 1);
             Ok(Some(call.devices()?.journal().entries().into_iter()))
         },
         call(entries) => {
-            let call = Call::of(context, "journal", 1);
             let terms = |entry: &Entry| {
                 Ok((Maker(&call).act(&entry.act)?, Maker(&call).called(entry)?))
             };
@@ -72,8 +70,7 @@ natives! {
 
     /// journal_new_(-Done): terms `done(Time, Act, Cause)`, what was done since the last call,
     /// in its order.
-    semidet fn "journal_new_"(context, done) {
-        let call = Call::of(context, "view", 1);
+    semidet fn "journal_new_"(context, done) as call("view", 1) {
         let term = |entry: &Entry| {
             let maker = Maker(&call);
             let (time, cause) = (seconds(entry.time), u64::from(entry.origin.cause));

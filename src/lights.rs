@@ -13,16 +13,14 @@ type Lights = IntoIter<Light>;
 natives! {
     /// led_(?Light, +What, -Value): what is `name`, `color`, `trigger`, `triggers`,
     /// or `delays`, whose value is `delays(On, Off)`.
-    nondet fn "led_"<Lights>(context, name, what, value) {
+    nondet fn "led_"<Lights>(context, name, what, value) as call("led", 2) {
         setup => {
-            let call = Call::of(context, "led", 2);
             let (name, devices) = (call.text_if_bound(name)?, call.devices()?);
             let mut lights = call.or_throw(light::lights(&devices))?;
             lights.retain(|light| name.as_deref().is_none_or(|name| light.is_called(name)));
             Ok(Some(lights.into_iter()))
         },
         call(lights) => {
-            let call = Call::of(context, "led", 2);
             let what = call.text(what)?;
             let read = |light: &Light| call.or_fail(read(light, &what));
             call.next(lights, read, |light, read| {
@@ -33,8 +31,7 @@ natives! {
     }
 
     /// led_set_color_(+Light, +Color)
-    semidet fn "led_set_color_"(context, name, color) {
-        let call = Call::of(context, "led", 2);
+    semidet fn "led_set_color_"(context, name, color) as call("led", 2) {
         let (name, color) = (call.text(name)?, color_of(&call, color)?);
         let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         let set = light::set_color(&devices, &name, &color, interrupted);
@@ -42,16 +39,14 @@ natives! {
     }
 
     /// led_set_trigger_(+Light, +Trigger)
-    semidet fn "led_set_trigger_"(context, name, trigger) {
-        let call = Call::of(context, "led_trigger", 2);
+    semidet fn "led_set_trigger_"(context, name, trigger) as call("led_trigger", 2) {
         let (name, trigger) = (call.text(name)?, call.text(trigger)?);
         let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         call.or_fail(light::set_trigger(&devices, &name, &trigger, interrupted))
     }
 
     /// led_set_delays_(+Light, +On, +Off)
-    semidet fn "led_set_delays_"(context, name, on, off) {
-        let call = Call::of(context, "led_blink", 3);
+    semidet fn "led_set_delays_"(context, name, on, off) as call("led_blink", 3) {
         let (name, delays) = (call.text(name)?, [call.integer(on)?, call.integer(off)?]);
         let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         call.or_fail(light::blink(&devices, &name, delays, interrupted))

@@ -25,22 +25,19 @@ struct MapperBlob {
 
 natives! {
     /// map_new_(+sensor(X, Y, Heading), -Mapper)
-    semidet fn "map_new_"(context, sensor, mapper) {
-        let call = Call::of(context, "map_start", 1);
+    semidet fn "map_new_"(context, sensor, mapper) as call("map_start", 1) {
         let made = Mutex::new(Mapper::new(pose_of(&call, sensor)?));
         mapper.unify(Arc::new(MapperBlob { mapper: made }))
     }
 
     /// map_look_(+Mapper, +pose(X, Y, Heading), +Distance)
-    semidet fn "map_look_"(context, mapper, at, distance) {
-        let call = Call::of(context, "map_start", 1);
+    semidet fn "map_look_"(context, mapper, at, distance) as call("map_start", 1) {
         let (at, heard) = (pose_of(&call, at)?, call.float(distance)?);
         mapping(mapper, |mapper| { mapper.look(at, heard); Ok(()) })
     }
 
     /// map_occupancy_(+Mapper, +X, +Y, -Probability)
-    semidet fn "map_occupancy_"(context, mapper, x, y, probability) {
-        let call = Call::of(context, "map_occupancy", 3);
+    semidet fn "map_occupancy_"(context, mapper, x, y, probability) as call("map_occupancy", 3) {
         let at = [call.float(x)?, call.float(y)?];
         probability.unify(mapping(mapper, |mapper| Ok(mapper.occupancy(at)))?)
     }
@@ -73,8 +70,7 @@ natives! {
     }
 
     /// map_frontier_(+Mapper, +X, +Y, +Hull, -Place): fails if all is explored.
-    semidet fn "map_frontier_"(context, mapper, x, y, hull, at) {
-        let call = Call::of(context, "explore", 1);
+    semidet fn "map_frontier_"(context, mapper, x, y, hull, at) as call("explore", 1) {
         let (from, hull) = ([call.float(x)?, call.float(y)?], call.float(hull)?);
         match mapping(mapper, |mapper| Ok(mapper.frontier(from, hull)))? {
             Some(place) => at.unify(&place_term(&call, place)?),
@@ -84,8 +80,7 @@ natives! {
 
     /// localize_new_(+Facts, +Options, -Localizer): options is `options(Hull, Sensor, Model,
     /// Wander, Count, Update, Seed, Search, Table)`.
-    semidet fn "localize_new_"(context, facts, options, localizer) {
-        let call = Call::of(context, "localize_start", 2);
+    semidet fn "localize_new_"(context, facts, options, localizer) as call("localize_start", 2) {
         let [hull, _, _, _, _, _, _, _, table] = call.arguments(options)?;
         let options = options_of(&call, options)?;
         let field = Field::new(&map_of(&call, facts)?, call.float(&hull)?, options.model.half_angle);
@@ -96,8 +91,7 @@ natives! {
     }
 
     /// localize_at_(+Localizer, +pose(X, Y, Heading), +Deviation)
-    semidet fn "localize_at_"(context, localizer, at, deviation) {
-        let call = Call::of(context, "localize_start", 2);
+    semidet fn "localize_at_"(context, localizer, at, deviation) as call("localize_start", 2) {
         let at = pose_of(&call, at)?;
         let deviation = call.float(deviation)?;
         with(localizer, |localizer| { localizer.start_at(at, deviation); Ok(()) })
@@ -110,8 +104,7 @@ natives! {
 
     /// localize_step_(+Localizer, +Robot, +UseGyro, +Distance, -Step, -Turned): turned is the
     /// heading by wheels and gyro, in degrees.
-    semidet fn "localize_step_"(context, localizer, robot, use_gyro, distance, step, turned) {
-        let call = Call::of(context, "localize_step", 2);
+    semidet fn "localize_step_"(context, localizer, robot, use_gyro, distance, step, turned) as call("localize_step", 2) {
         let drive = drive_of(&call, robot, use_gyro)?;
         let odometry = call.or_fail(drive.rolled())?;
         let heard = call.float(distance)?;
@@ -127,8 +120,7 @@ natives! {
 
     /// localize_correct_(+Localizer, +Robot, +UseGyro): the odometry goes on from where the
     /// robot is on the map, if that is sure enough.
-    semidet fn "localize_correct_"(context, localizer, robot, use_gyro) {
-        let call = Call::of(context, "localize_step", 2);
+    semidet fn "localize_correct_"(context, localizer, robot, use_gyro) as call("localize_step", 2) {
         let drive = drive_of(&call, robot, use_gyro)?;
         let believed = call.or_fail(drive.pose())?;
         let odometry = call.or_fail(drive.rolled())?;
@@ -143,8 +135,7 @@ natives! {
     }
 
     /// localize_best_(+Localizer, +Robot, +UseGyro, -pose(X, Y, Heading), -Covariance)
-    semidet fn "localize_best_"(context, localizer, robot, use_gyro, pose, rows) {
-        let call = Call::of(context, "localized_pose", 4);
+    semidet fn "localize_best_"(context, localizer, robot, use_gyro, pose, rows) as call("localized_pose", 4) {
         let odometry = call.or_fail(drive_of(&call, robot, use_gyro)?.rolled())?;
         let Some(best) = with(localizer, |localizer| Ok(localizer.best_now(odometry)))? else {
             return Err(PrologError::Failure);

@@ -22,8 +22,7 @@ use swipl::prelude::*;
 
 natives! {
     /// motor_run_(+Port, +Speed): a percentage, or dps(DegreesPerSecond).
-    semidet fn "motor_run_"(context, port, percent) {
-        let call = Call::of(context, "motor_run", 2);
+    semidet fn "motor_run_"(context, port, percent) as call("motor_run", 2) {
         let (name, speed) = (call.text(port)?, speed_of(&call, percent)?);
         let (run, devices) = (Run { port: &name, speed }, call.devices_to_move()?);
         let (look, interrupted) = (Look::at(&devices, Class::TachoMotor), &mut call.interrupted());
@@ -35,8 +34,7 @@ natives! {
     }
 
     /// run_forever_(+Port, +CountsPerSecond)
-    semidet fn "run_forever_"(context, port, speed) {
-        let call = Call::of(context, "run_forever", 2);
+    semidet fn "run_forever_"(context, port, speed) as call("run_forever", 2) {
         let (port, speed) = (call.text(port)?, Speed::CountsPerSecond(call.integer(speed)?));
         let (run, devices) = (Run { port: &port, speed }, call.devices_to_move()?);
         let interrupted = &mut call.interrupted();
@@ -44,8 +42,7 @@ natives! {
     }
 
     /// motors_run_(+Runs): a list of run(Port, Speed), started together.
-    semidet fn "motors_run_"(context, runs) {
-        let call = Call::of(context, "motors_run", 1);
+    semidet fn "motors_run_"(context, runs) as call("motors_run", 1) {
         let run = |run: &Term<'a>| -> PrologResult<_> {
             let [port, percent] = call.arguments(run)?;
             Ok((call.text(&port)?, speed_of(&call, &percent)?))
@@ -62,9 +59,8 @@ natives! {
     /// for(Port, Speed, Seconds), options is
     /// options(StopAction, RampUp, RampDown, Wait, Timeout). If the wait is left, the
     /// motors stop.
-    nondet fn "motor_turn_"<Slices<Moving>>(context, moves, options, reason) {
+    nondet fn "motor_turn_"<Slices<Moving>>(context, moves, options, reason) as call("motor_run", 4) {
         setup => {
-            let call = Call::of(context, "motor_run", 4);
             let turn = |turn: &Term<'a>| -> PrologResult<_> {
                 let [port, percent, way] = call.arguments(turn)?;
                 let speed = speed_of(&call, &percent)?;
@@ -77,13 +73,12 @@ natives! {
             call.or_fail(motor::begin(&devices, &moves, &options, interrupted)).map(Some)
         },
         call(moving) => {
-            Call::of(context, "motor_run", 4).slice_of_move(moving, reason)
+            call.slice_of_move(moving, reason)
         }
     }
 
     /// motor_stop_(+Class, +Port, +StopAction)
-    semidet fn "motor_stop_"(context, class, port, action) {
-        let call = Call::of(context, "motor_stop", 2);
+    semidet fn "motor_stop_"(context, class, port, action) as call("motor_stop", 2) {
         let class = class_of(context, class)?;
         let (name, action) = (call.text(port)?, stop_action(&call, action)?);
         let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
@@ -92,8 +87,7 @@ natives! {
     }
 
     /// stop_all_motors_
-    semidet fn "stop_all_motors_"(context) {
-        let call = Call::of(context, "stop_all_motors", 0);
+    semidet fn "stop_all_motors_"(context) as call("stop_all_motors", 0) {
         call.or_throw(motor::stop_connected(&*call.devices_to_command()?, &mut call.interrupted()))
     }
 
@@ -104,8 +98,7 @@ natives! {
 
     /// motors_stop_(+From, +Before): stops the motors whose last command was one of
     /// these, of this thread.
-    semidet fn "motors_stop_"(context, from, before) {
-        let call = Call::of(context, "behave", 2);
+    semidet fn "motors_stop_"(context, from, before) as call("behave", 2) {
         let commands = commands_of(&call, from, before)?;
         call.devices_to_command()?;
         call.stop_commanded(&commands)
@@ -113,15 +106,13 @@ natives! {
 
     /// motors_leave_(+From, +Before): the same at the first wait of this thread, in the place of
     /// other commands since From.
-    semidet fn "motors_leave_"(context, from, before) {
-        let call = Call::of(context, "behave", 2);
+    semidet fn "motors_leave_"(context, from, before) as call("behave", 2) {
         waiting::stop_at_wait(commands_of(&call, from, before)?);
         Ok(())
     }
 
     /// motor_reset_(+Port)
-    semidet fn "motor_reset_"(context, port) {
-        let call = Call::of(context, "motor_reset", 1);
+    semidet fn "motor_reset_"(context, port) as call("motor_reset", 1) {
         let (class, name) = (Class::TachoMotor, call.text(port)?);
         let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         let reset = |motor: &Arc<Device>| motor::reset(motor);
@@ -129,9 +120,8 @@ natives! {
     }
 
     /// motor_wait_(+Ports, +Timeout, -Reason)
-    nondet fn "motor_wait_"<Slices<UntilDone>>(context, ports, timeout, reason) {
+    nondet fn "motor_wait_"<Slices<UntilDone>>(context, ports, timeout, reason) as call("motor_wait", 3) {
         setup => {
-            let call = Call::of(context, "motor_wait", 3);
             let devices = call.devices()?;
             let ports = call.list(ports)?.iter().map(|p| call.text(p)).collect::<PrologResult<Vec<_>>>()?;
             let timeout = call.seconds(timeout)?;
@@ -139,14 +129,13 @@ natives! {
             Ok(Some(wait::until_done(&devices, &motors, timeout)))
         },
         call(waiting) => {
-            Call::of(context, "motor_wait", 3).slice_of_move(waiting, reason)
+            call.slice_of_move(waiting, reason)
         }
     }
 
     /// motor_wait_flag_(+Port, +Flag, +Present, -Reason): `over` at the end.
-    nondet fn "motor_wait_flag_"<Slices<UntilFlag>>(context, port, flag, present, reason) {
+    nondet fn "motor_wait_flag_"<Slices<UntilFlag>>(context, port, flag, present, reason) as call("motor_wait_while", 2) {
         setup => {
-            let call = Call::of(context, "motor_wait_while", 2);
             let devices = call.devices()?;
             let (name, flag, present) = (call.text(port)?, call.text(flag)?, present.get_ex()?);
             let found = devices.find(Class::TachoMotor, &name);
@@ -154,14 +143,12 @@ natives! {
             Ok(Some(wait::until_flag(&devices, &motor, &flag, present)))
         },
         call(waiting) => {
-            let call = Call::of(context, "motor_wait_while", 2);
             call.slice(waiting, reason, |()| unify_atom(reason, "over"))
         }
     }
 
     /// motor_run_direct_(+Class, +Port, +Percent)
-    semidet fn "motor_run_direct_"(context, class, port, percent) {
-        let call = Call::of(context, "motor_run_direct", 2);
+    semidet fn "motor_run_direct_"(context, class, port, percent) as call("motor_run_direct", 2) {
         let class = class_of(context, class)?;
         let (port, percent) = (call.text(port)?, call.float(percent)?);
         let (devices, interrupted) = (call.devices_to_move()?, &mut call.interrupted());
@@ -170,44 +157,39 @@ natives! {
     }
 
     /// motor_position_(?Port, -Position)
-    nondet fn "motor_position_"<ListedDevices>(context, port, position) {
+    nondet fn "motor_position_"<ListedDevices>(context, port, position) as call("motor_position", 2) {
         setup => {
-            let call = Call::of(context, "motor_position", 2);
             call.listed(&*call.devices()?, Class::TachoMotor, port).map(Some)
         },
         call(motors) => {
-            next_measured(&Call::of(context, "motor_position", 2), motors, "position", port, position)
+            next_measured(&call, motors, "position", port, position)
         }
     }
 
     /// motor_speed_(?Port, -Speed)
-    nondet fn "motor_speed_"<ListedDevices>(context, port, speed) {
+    nondet fn "motor_speed_"<ListedDevices>(context, port, speed) as call("motor_speed", 2) {
         setup => {
-            let call = Call::of(context, "motor_speed", 2);
             call.listed(&*call.devices()?, Class::TachoMotor, port).map(Some)
         },
         call(motors) => {
-            next_measured(&Call::of(context, "motor_speed", 2), motors, "speed", port, speed)
+            next_measured(&call, motors, "speed", port, speed)
         }
     }
 
     /// motor_counts_(+Port, +Constant, -Counts): `max_speed`, or `count_per_rot` with the gear,
     /// of a motor of which the driver has read it. Asks no device.
-    semidet fn "motor_counts_"(context, port, constant, counts) {
-        let call = Call::of(context, "why", 1);
+    semidet fn "motor_counts_"(context, port, constant, counts) as call("why", 1) {
         let devices = chosen_devices().ok_or(PrologError::Failure)?;
         let known = motor::known_counts(&devices, &call.text(port)?, &call.text(constant)?);
         counts.unify(known.ok_or(PrologError::Failure)?)
     }
 
     /// motor_gear_(?Port, -Ratio)
-    nondet fn "motor_gear_"<ListedDevices>(context, port, ratio) {
+    nondet fn "motor_gear_"<ListedDevices>(context, port, ratio) as call("motor_gear", 2) {
         setup => {
-            let call = Call::of(context, "motor_gear", 2);
             call.listed(&*call.devices()?, Class::TachoMotor, port).map(Some)
         },
         call(motors) => {
-            let call = Call::of(context, "motor_gear", 2);
             call.next(motors, |motor| Ok(motor.gear()), |motor, gear| {
                 ratio.unify(gear)?;
                 unify_port(port, motor.port())
@@ -216,8 +198,7 @@ natives! {
     }
 
     /// motor_set_gear_(+Port, +Ratio)
-    semidet fn "motor_set_gear_"(context, port, ratio) {
-        let call = Call::of(context, "motor_gear", 2);
+    semidet fn "motor_set_gear_"(context, port, ratio) as call("motor_gear", 2) {
         let (name, ratio) = (call.text(port)?, call.float(ratio)?);
         let devices = call.devices()?;
         let set = |motor: &Arc<Device>| motor::set_gear(motor, ratio);
@@ -225,8 +206,7 @@ natives! {
     }
 
     /// motor_set_position_(+Port, +Position)
-    semidet fn "motor_set_position_"(context, port, position) {
-        let call = Call::of(context, "motor_position", 2);
+    semidet fn "motor_set_position_"(context, port, position) as call("motor_position", 2) {
         let (name, position) = (call.text(port)?, call.float(position)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let set = |motor: &Arc<Device>| motor::set_position(motor, position);

@@ -22,14 +22,13 @@ struct PathBlob {
 
 natives! {
     /// views_new_(+Radius, -Views)
-    semidet fn "views_new_"(context, radius, views) {
-        let radius = Call::of(context, "navigate_to", 3).float(radius)?;
+    semidet fn "views_new_"(context, radius, views) as call("navigate_to", 3) {
+        let radius = call.float(radius)?;
         views.unify(Arc::new(SeenSoFar { views: Mutex::new(Views::new(radius)) }))
     }
 
     /// views_look_(+Views, +pose(X, Y, Heading), +sensor(X, Y, Heading), +Range, -Moved)
-    semidet fn "views_look_"(context, views, pose, sensor, range, moved) {
-        let call = Call::of(context, "navigate_to", 3);
+    semidet fn "views_look_"(context, views, pose, sensor, range, moved) as call("navigate_to", 3) {
         let number = |term: &Term| call.float(term);
         let ([x, y, heading], [aside, ahead, turned]) =
             (call.arguments(pose)?, call.arguments(sensor)?);
@@ -46,15 +45,14 @@ natives! {
     }
 
     /// views_block_(+Views, +Place)
-    semidet fn "views_block_"(context, views, at) {
-        let at = place(&Call::of(context, "navigate_to", 3), at)?;
+    semidet fn "views_block_"(context, views, at) as call("navigate_to", 3) {
+        let at = place(&call, at)?;
         views_in(&views.get_ex()?).block(at);
         Ok(())
     }
 
     /// views_obstacles_(+Views, +Facts, -Polygons)
-    semidet fn "views_obstacles_"(context, views, facts, polygons) {
-        let call = Call::of(context, "navigate_to", 3);
+    semidet fn "views_obstacles_"(context, views, facts, polygons) as call("navigate_to", 3) {
         let found = views_in(&views.get_ex()?).obstacles(&map_of(&call, facts)?);
         let corners = found.iter().filter_map(Obstacle::corners);
         let terms = corners.map(|corners| {
@@ -66,8 +64,7 @@ natives! {
 
     /// views_step_(+Views, +Facts, +way(Start, Goal, Margin), +Options, -Step): step is
     /// step(Heading, Length, Safe, Unseen, Rest, Way) or no_way(Why).
-    semidet fn "views_step_"(context, views, facts, way, options, step) {
-        let call = Call::of(context, "navigate_to", 3);
+    semidet fn "views_step_"(context, views, facts, way, options, step) as call("navigate_to", 3) {
         let (map, options) = (map_of(&call, facts)?, options_of(&call, options)?);
         let [start, goal, margin] = call.arguments(way)?;
         let (start, goal, margin) =
@@ -80,8 +77,7 @@ natives! {
     }
 
     /// steer_(+Way, +pose(X, Y, Heading), +Before, -Gone, -DegreesPerCm)
-    semidet fn "steer_"(context, way, pose, before, gone, turn) {
-        let call = Call::of(context, "navigate_to", 3);
+    semidet fn "steer_"(context, way, pose, before, gone, turn) as call("navigate_to", 3) {
         let [x, y, heading] = call.arguments(pose)?;
         let pose = Pose { x: call.float(&x)?, y: call.float(&y)?, heading: call.float(&heading)? };
         let way: Arc<PathBlob> = way.get_ex()?;

@@ -15,8 +15,7 @@ use swipl::prelude::*;
 natives! {
     /// roadmap_(+Facts, +Start, +Goal, +Options, -Way): way is
     /// way(Length, Points, Legs) or no_way(Why).
-    semidet fn "roadmap_"(context, facts, start, goal, options, way) {
-        let call = Call::of(context, "roadmap_path", 5);
+    semidet fn "roadmap_"(context, facts, start, goal, options, way) as call("roadmap_path", 5) {
         match solve(&call, [facts, start, goal, options])?.1 {
             Ok(found) => way.unify(&way_term(&call, &found.path)?),
             Err(why) => no_way(&call, way, why),
@@ -24,8 +23,7 @@ natives! {
     }
 
     /// roadmap_svg_(+Facts, +Start, +Goal, +Options, -Text)
-    semidet fn "roadmap_svg_"(context, facts, start, goal, options, text) {
-        let call = Call::of(context, "roadmap_svg", 5);
+    semidet fn "roadmap_svg_"(context, facts, start, goal, options, text) as call("roadmap_svg", 5) {
         let keep = options_of(&call, options)?.keep;
         let (map, found) = solve(&call, [facts, start, goal, options])?;
         let Ok(found) = found else { return Err(PrologError::Failure) };

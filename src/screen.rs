@@ -17,8 +17,7 @@ natives! {
     }
 
     /// screen_draw_(+Shape, +style(Color, Width, Fill))
-    semidet fn "screen_draw_"(context, shape, style) {
-        let call = Call::of(context, "screen_draw", 2);
+    semidet fn "screen_draw_"(context, shape, style) as call("screen_draw", 2) {
         let shape = shape_of(&call, shape)?;
         let [color, width, fill] = call.arguments(style)?;
         let style = Style {
@@ -31,8 +30,7 @@ natives! {
     }
 
     /// screen_write_(+X, +Y, +Text, +letters(Color, Background, Font, Scale, Align))
-    semidet fn "screen_write_"(context, x, y, text, letters) {
-        let call = Call::of(context, "screen_text", 4);
+    semidet fn "screen_write_"(context, x, y, text, letters) as call("screen_text", 4) {
         let (at, text) = (point(&call, [x, y])?, call.text(text)?);
         let letters = letters_of(&call, letters)?;
         with_frame(|frame| frame.write(at, &text, letters));
@@ -40,8 +38,7 @@ natives! {
     }
 
     /// screen_image_(+X, +Y, +File)
-    semidet fn "screen_image_"(context, x, y, file) {
-        let call = Call::of(context, "screen_image", 3);
+    semidet fn "screen_image_"(context, x, y, file) as call("screen_image", 3) {
         let at = point(&call, [x, y])?;
         let picture = call.or_throw(Picture::read(Path::new(&*call.text(file)?)))?;
         with_frame(|frame| frame.place(at, &picture));
@@ -49,15 +46,13 @@ natives! {
     }
 
     /// screen_show_
-    semidet fn "screen_show_"(context) {
-        let call = Call::of(context, "screen_show", 0);
+    semidet fn "screen_show_"(context) as call("screen_show", 0) {
         let dev = call.dev()?;
         call.or_fail(with_frame(|frame| screen::show(devices().tree(), &*dev, frame)))
     }
 
     /// screen_png_(+File)
-    semidet fn "screen_png_"(context, file) {
-        let call = Call::of(context, "screen_png", 1);
+    semidet fn "screen_png_"(context, file) as call("screen_png", 1) {
         let (file, dev) = (call.text(file)?, call.dev()?);
         let seen = call.or_fail(screen::seen(devices().tree(), &*dev))?;
         call.or_throw(picture::write_png(Path::new(&*file), frame::WIDTH, frame::HEIGHT, &seen))

@@ -26,9 +26,8 @@ natives! {
 
     /// sensor_value_(?Port, +Types, +Mode, +Index, -Value): Types is a list, or the name of a
     /// reading that has one row in the table of `sensors.pl`, which has mode and index, too.
-    nondet fn "sensor_value_"<Readings>(context, port, types, mode, index, value) {
+    nondet fn "sensor_value_"<Readings>(context, port, types, mode, index, value) as call("sensor_value", 4) {
         setup => {
-            let call = Call::of(context, "sensor_value", 4);
             if call.serve_before("sensor_value_", [port, types, mode, index, value])? {
                 return Ok(None);
             }
@@ -37,15 +36,14 @@ natives! {
             start(readings, |all| &all.sensors, |all| all.next_value(&call, port, value))
         },
         call(readings) => {
-            readings.next_value(&Call::of(context, "sensor_value", 4), port, value)
+            readings.next_value(&call, port, value)
         }
     }
 
     /// sensor_value_or_why_(?Port, +Types, +Mode, +Index, -Value): the same, but explains
     /// it if there is no value.
-    nondet fn "sensor_value_or_why_"<Readings>(context, port, types, mode, index, value) {
+    nondet fn "sensor_value_or_why_"<Readings>(context, port, types, mode, index, value) as call("sensor_value", 4) {
         setup => {
-            let call = Call::of(context, "sensor_value", 4);
             if call.serve_before("sensor_value_or_why_", [port, types, mode, index, value])? {
                 return Ok(None);
             }
@@ -56,16 +54,14 @@ natives! {
             })
         },
         call(readings) => {
-            let call = Call::of(context, "sensor_value", 4);
             readings.next_or_why(&call, [port, types, mode], value)
         }
     }
 
     /// sensor_values_(?Port, +Types, +Mode, +Count, ?Values): the list of the first
     /// Count values, or of all values of the mode if Count is 0.
-    nondet fn "sensor_values_"<Readings>(context, port, types, mode, count, values) {
+    nondet fn "sensor_values_"<Readings>(context, port, types, mode, count, values) as call("sensor_values", 3) {
         setup => {
-            let call = Call::of(context, "sensor_values", 3);
             if call.serve_before("sensor_values_", [port, types, mode, count, values])? {
                 return Ok(None);
             }
@@ -74,7 +70,6 @@ natives! {
             if readings.sensors.len() == 0 { no_sensor(&call, port, types, mode) } else { Ok(Some(readings)) }
         },
         call(readings) => {
-            let call = Call::of(context, "sensor_values", 3);
             let Readings { devices, sensors, names_port, row, .. } = readings;
             let count = (row.index > 0).then_some(row.index);
             let read = |device: &Arc<Device>| {
@@ -91,8 +86,7 @@ natives! {
     }
 
     /// sensor_restart_(+Port, +Types, +Mode)
-    semidet fn "sensor_restart_"(context, port, types, mode) {
-        let call = Call::of(context, "gyro_reset", 1);
+    semidet fn "sensor_restart_"(context, port, types, mode) as call("gyro_reset", 1) {
         call.text(port)?;
         let row = row(&call, types, mode, || Ok(0))?;
         let Readings { devices, mut sensors, row, .. } = readings(&call, port, types, row)?;
@@ -105,9 +99,8 @@ natives! {
 
     /// sensor_wait_(+Port, +Reading, +Test, +Timeout, -Ended): reading is
     /// reading(Types, Mode, Index), test is test(Operator, Number) or `bumped`.
-    nondet fn "sensor_wait_"<Slices<UntilShown>>(context, port, reading, test, timeout, ended) {
+    nondet fn "sensor_wait_"<Slices<UntilShown>>(context, port, reading, test, timeout, ended) as call("sensor_wait", 2) {
         setup => {
-            let call = Call::of(context, "sensor_wait", 2);
             let [types, mode, index] = call.arguments(reading)?;
             let row = row(&call, &types, &mode, || index_of(&call, &index))?;
             let (until, timeout) = (until(&call, test)?, call.seconds(timeout)?);
@@ -117,14 +110,12 @@ natives! {
             Ok(Some(until_shown(&devices, &sensor, &row.mode, row.index, until, timeout)))
         },
         call(waiting) => {
-            let call = Call::of(context, "sensor_wait", 2);
             call.slice(waiting, ended, |end| unify_atom(ended, end.word()))
         }
     }
 
     /// sensor_scale_(+Port, +Raw, -Value)
-    semidet fn "sensor_scale_"(context, port, raw, value) {
-        let call = Call::of(context, "adjust_val", 3);
+    semidet fn "sensor_scale_"(context, port, raw, value) as call("adjust_val", 3) {
         let (name, raw) = (call.text(port)?, call.integer(raw)?);
         let devices = call.devices()?;
         let scaled = devices.with(Class::Sensor, &name, |device| sensor::scale(device, raw));
@@ -132,8 +123,7 @@ natives! {
     }
 
     /// i2c_read_(+Port, +Register, +Count, -Bytes)
-    semidet fn "i2c_read_"(context, port, register, count, bytes) {
-        let call = Call::of(context, "i2c_read", 4);
+    semidet fn "i2c_read_"(context, port, register, count, bytes) as call("i2c_read", 4) {
         let (name, register) = (call.text(port)?, byte(&call, register)?);
         let mut buffer = vec![0; byte(&call, count)?.into()];
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
@@ -144,8 +134,7 @@ natives! {
     }
 
     /// i2c_write_(+Port, +Register, +Bytes)
-    semidet fn "i2c_write_"(context, port, register, bytes) {
-        let call = Call::of(context, "i2c_write", 3);
+    semidet fn "i2c_write_"(context, port, register, bytes) as call("i2c_write", 3) {
         let (name, register) = (call.text(port)?, byte(&call, register)?);
         let bytes = call.map_list(bytes, |term| byte(&call, &term))?;
         let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());

@@ -12,9 +12,8 @@ use swipl::prelude::*;
 natives! {
     /// tones_(+Tones, +Wait, -Reason): a list of tone(Hertz, Milliseconds); 0 Hz is
     /// silence. `over` at the end.
-    nondet fn "tones_"<UntilSilent>(context, tones, wait, reason) {
+    nondet fn "tones_"<UntilSilent>(context, tones, wait, reason) as call("tones", 2) {
         setup => {
-            let call = Call::of(context, "tones", 2);
             let tones = call.list(tones)?;
             let tones = tones.iter().map(|tone| tone_of(&call, tone)).collect::<PrologResult<Vec<_>>>()?;
             let dev = call.dev()?;
@@ -29,15 +28,13 @@ natives! {
             Ok(Some(playing))
         },
         call(sound) => {
-            let call = Call::of(context, "tones", 2);
             play_on(&call, sound, reason)
         }
     }
 
     /// say_(+Text, +Wait, -Reason)
-    nondet fn "say_"<UntilSilent>(context, text, wait, reason) {
+    nondet fn "say_"<UntilSilent>(context, text, wait, reason) as call("say", 1) {
         setup => {
-            let call = Call::of(context, "say", 1);
             let (text, dev) = (call.text(text)?, call.dev()?);
             let saying = if wait.get_ex()? {
                 Some(call.or_throw(sound().say(&dev, &text))?)
@@ -49,15 +46,13 @@ natives! {
             Ok(Some(saying))
         },
         call(sound) => {
-            let call = Call::of(context, "say", 1);
             play_on(&call, sound, reason)
         }
     }
 
     /// play_(+File, +Wait, -Reason)
-    nondet fn "play_"<UntilSilent>(context, file, wait, reason) {
+    nondet fn "play_"<UntilSilent>(context, file, wait, reason) as call("play", 1) {
         setup => {
-            let call = Call::of(context, "play", 1);
             let (file, dev) = (call.text(file)?, call.dev()?);
             let playing = if wait.get_ex()? {
                 Some(call.or_throw(sound().play(&dev, Path::new(&*file)))?)
@@ -70,43 +65,38 @@ natives! {
             Ok(Some(playing))
         },
         call(sound) => {
-            let call = Call::of(context, "play", 1);
             play_on(&call, sound, reason)
         }
     }
 
     /// volume_(-Percent)
-    semidet fn "volume_"(context, percent) {
-        let call = Call::of(context, "volume", 1);
+    semidet fn "volume_"(context, percent) as call("volume", 1) {
         let volume = call.or_throw(sound::volume(&*call.dev()?))?;
         percent.unify(i64::from(volume.map_or_else(|| call.lacking("speaker"), Ok)?))
     }
 
     /// volume_set_(+Percent): from 0 to 100.
-    semidet fn "volume_set_"(context, percent) {
-        let call = Call::of(context, "volume", 1);
+    semidet fn "volume_set_"(context, percent) as call("volume", 1) {
         let percent = u8::try_from(call.integer(percent)?).map_err(|_| PrologError::Failure)?;
         let set = call.or_throw(sound::set_volume(&*call.dev()?, percent))?;
         set.map_or_else(|| call.lacking("speaker"), Ok)
     }
 
     /// sound_wait_(-Reason): `over` at the end.
-    nondet fn "sound_wait_"<UntilSilent>(context, reason) {
+    nondet fn "sound_wait_"<UntilSilent>(context, reason) as call("sound_wait", 0) {
         setup => {
-            let dev = Call::of(context, "sound_wait", 0).dev()?;
+            let dev = call.dev()?;
             let waiting = sound().until_silent(&dev);
             Ok(Some(Some(waiting)))
         },
         call(sound) => {
-            let call = Call::of(context, "sound_wait", 0);
             play_on(&call, sound, reason)
         }
     }
 
     /// sound_stop_
-    semidet fn "sound_stop_"(context) {
+    semidet fn "sound_stop_"(context) as call("sound_stop", 0) {
         // This does not choose a tree: the call that started the sound has done so.
-        let call = Call::of(context, "sound_stop", 0);
         call.note_sound(SoundCommand::Stop);
         call.or_throw(sound().stop(&*dev()))
     }

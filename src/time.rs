@@ -1,5 +1,4 @@
 //! `prolog/ev3dev/time.pl`: the clock of the tree in use.
-use crate::glue::call::Call;
 use crate::glue::due::note_guards;
 use crate::glue::state::{chosen_devices, devices};
 use crate::glue::terms::unify_atom;
@@ -12,20 +11,17 @@ use swipl::prelude::*;
 
 natives! {
     /// now_(-Seconds): since some fixed moment.
-    semidet fn "now_"(context, seconds) {
-        let call = Call::of(context, "ev3_time", 1);
+    semidet fn "now_"(context, seconds) as call("ev3_time", 1) {
         seconds.unify(call.devices()?.tree().now().as_secs_f64())
     }
 
     /// wait_(+Seconds, -Reason): `over` at the end.
-    nondet fn "wait_"<Slices<Sleep>>(context, seconds, reason) {
+    nondet fn "wait_"<Slices<Sleep>>(context, seconds, reason) as call("wait", 1) {
         setup => {
-            let call = Call::of(context, "wait", 1);
             let (devices, seconds) = (call.devices()?, call.time(seconds)?);
             Ok(Some(Sleep::new(devices, seconds)))
         },
         call(sleep) => {
-            let call = Call::of(context, "wait", 1);
             call.slice(sleep, reason, |()| unify_atom(reason, "over"))
         }
     }
@@ -38,8 +34,7 @@ natives! {
 
     /// tick_after_(+Seconds): this thread serves its events after some time, or, if that
     /// is `infinite`, has none. This is not a use of a device: it chooses no tree.
-    semidet fn "tick_after_"(context, seconds) {
-        let call = Call::of(context, "every", 2);
+    semidet fn "tick_after_"(context, seconds) as call("every", 2) {
         waiting::tick_at(match call.seconds(seconds)? {
             Some(time) => {
                 let is_chosen = chosen_devices().is_some();
@@ -58,9 +53,9 @@ natives! {
     }
 
     /// branches_begin_: from now on the waits of this thread let no time pass.
-    semidet fn "branches_begin_"(context) {
+    semidet fn "branches_begin_"(context) as call("both", 2) {
         if chosen_devices().is_some() {
-            Call::of(context, "both", 2).devices()?; // runs planned goals that are due
+            call.devices()?; // runs planned goals that are due
         }
         waiting::begin_branches(Round::GoesOn(Vec::new()));
         into_prolog_result(true)
@@ -79,8 +74,8 @@ natives! {
     }
 
     /// serve_if_due_: serves the events of this thread, if it is time to.
-    semidet fn "serve_if_due_"(context) {
-        Call::of(context, "both", 2).serve_if_due()
+    semidet fn "serve_if_due_"(context) as call("both", 2) {
+        call.serve_if_due()
     }
 
     /// branches_look_(-Seconds, -Bricks): after what time the first of them has to look again, and

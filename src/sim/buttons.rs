@@ -58,8 +58,8 @@ impl Key {
 
 natives! {
     /// sim_key_(+Key, +IsPress)
-    semidet fn "sim_key_"(context, key, is_press) {
-        let key = Key::of(&Call::of(context, "sim_press", 1), key)?;
+    semidet fn "sim_key_"(context, key, is_press) as call("sim_press", 1) {
+        let key = Key::of(&call, key)?;
         let (simulation, is_press) = (simulation(context)?, is_press.get_ex()?);
         let is_there = key.set(&mut simulation.machine(), is_press);
         simulation.shared().wake();
@@ -67,8 +67,7 @@ natives! {
     }
 
     /// sim_plan_key_(+Key, +After, +For): seconds; an atom as For means without end.
-    semidet fn "sim_plan_key_"(context, key, after, lasts) {
-        let call = Call::of(context, "sim_press", 2);
+    semidet fn "sim_plan_key_"(context, key, after, lasts) as call("sim_press", 2) {
         let (key, at) = (Key::of(&call, key)?, call.time(after)?);
         let lasts = if lasts.is_atom() { None } else { Some(call.time(lasts)?) };
         let simulation = simulation(context)?;

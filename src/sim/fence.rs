@@ -105,8 +105,7 @@ impl Fence {
 natives! {
     /// sim_fence_open_(+Path): a program may connect to the robot of the running simulation, once;
     /// fails if that has no virtual clock.
-    semidet fn "sim_fence_open_"(context, path) {
-        let call = Call::of(context, "sim_fenced", 3);
+    semidet fn "sim_fence_open_"(context, path) as call("sim_fenced", 3) {
         let simulation = simulation(context)?;
         if simulation.clock() != Clock::Virtual {
             return Err(PrologError::Failure);
@@ -126,8 +125,7 @@ natives! {
     /// sim_fence_serve_(+Until, +Wall, -State): the machine answers for Wall seconds at most, but
     /// not after Until, a number of seconds or `inf`. State is `waiting`, `silent` if it asks
     /// nothing at the end of them, `ended`, `over` or refused(Why).
-    semidet fn "sim_fence_serve_"(context, until, wall, state) {
-        let call = Call::of(context, "sim_fenced", 3);
+    semidet fn "sim_fence_serve_"(context, until, wall, state) as call("sim_fenced", 3) {
         let (until, wall) = (call.seconds(until)?.unwrap_or(Duration::MAX), call.time(wall)?);
         let simulation = simulation(context)?;
         let number = brick_number();
@@ -135,7 +133,7 @@ natives! {
         let served = fence.serve(&simulation, [until, wall], call.interrupted());
         locked(&FENCES).insert(number, fence);
         match served {
-            Ok(served) => unify_state(&call, state, served),
+            Ok(served) => unify_state(&call, state, &served),
             Err(error) => no_such(&call, "program", "fenced", &error.to_string()),
         }
     }
@@ -168,8 +166,7 @@ natives! {
     }
 
     /// sim_fence_join_(+Path): this process is such a program.
-    semidet fn "sim_fence_join_"(context, path) {
-        let call = Call::of(context, "sim_fenced", 3);
+    semidet fn "sim_fence_join_"(context, path) as call("sim_fenced", 3) {
         let path = call.text(path)?;
         let joined = Line::connect(Path::new(&*path), ev3_signals::vanish)
             .and_then(|(line, now)| Simulation::far(Box::new(line), now, has_other_threads));
@@ -181,7 +178,7 @@ natives! {
 }
 
 /// What became of the program behind the fence.
-fn unify_state<C: Prolog>(call: &Call<C>, term: &Term, state: State) -> PrologResult<()> {
+fn unify_state<C: Prolog>(call: &Call<C>, term: &Term, state: &State) -> PrologResult<()> {
     let context = call.context;
     match state {
         State::Waiting => unify_atom(term, "waiting"),
@@ -189,6 +186,6 @@ fn unify_state<C: Prolog>(call: &Call<C>, term: &Term, state: State) -> PrologRe
         State::Ended => unify_atom(term, "ended"),
         State::Over => unify_atom(term, "over"),
         State::Interrupted => call.or_throw(Err(Error::Interrupted)),
-        State::Refused(why) => term.unify(&term! {context: refused(#why)}?),
+        &State::Refused(why) => term.unify(&term! {context: refused(#why)}?),
     }
 }

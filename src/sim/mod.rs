@@ -67,8 +67,7 @@ impl Drop for Snapshot {
 
 natives! {
     /// sim_check_(+Subject, +Fact): subject is `world` or `robot`.
-    semidet fn "sim_check_"(context, subject, term) {
-        let call = Call::of(context, "sim_start", 2);
+    semidet fn "sim_check_"(context, subject, term) as call("sim_start", 2) {
         known_fact(&call, subject_of(&call, subject)?, term).map(drop)
     }
 
@@ -90,8 +89,7 @@ natives! {
     /// sim_start_(+WorldFacts, +RobotFacts, +options(Clock, Seed, Noise, ScreenBits), -Fault):
     /// fault is `none`, or fault(Subject, Index, Why) for the faulty fact. Index counts from
     /// 1; 0 means that a fact is missing.
-    semidet fn "sim_start_"(context, world, robot, options, fault) {
-        let call = Call::of(context, "sim_start", 2);
+    semidet fn "sim_start_"(context, world, robot, options, fault) as call("sim_start", 2) {
         let (world, robot) = (facts_of(&call, Subject::World, world)?, facts_of(&call, Subject::Robot, robot)?);
         let (clock, noise, options) = options_of(&call, options)?;
         match built(&world, None, &robot, noise, options) {
@@ -104,10 +102,9 @@ natives! {
     }
 
     /// sim_crowd_(+WorldFacts, +Robots, +Options, -Fault): robots is a list of
-    /// robot(Brick, Name, RobotFacts); options and fault are those of sim_start_/4, but a fault in
+    /// `robot(Brick, Name, RobotFacts)`; options and fault are those of sim_start_/4, but a fault in
     /// a robot has the subject robot(Number), which counts from 1.
-    semidet fn "sim_crowd_"(context, world, robots, options, fault) {
-        let call = Call::of(context, "sim_start", 2);
+    semidet fn "sim_crowd_"(context, world, robots, options, fault) as call("sim_start", 2) {
         let world = facts_of(&call, Subject::World, world)?;
         let options = options_of(&call, options)?;
         let robots = call.map_list(robots, |term| self::robot(&call, &term))?;
@@ -118,8 +115,7 @@ natives! {
     }
 
     /// sim_fault_(+WorldFacts, +RobotFacts, -Fault): the fault with which they cannot start.
-    semidet fn "sim_fault_"(context, world, robot, fault) {
-        let call = Call::of(context, "sim_start", 2);
+    semidet fn "sim_fault_"(context, world, robot, fault) as call("sim_start", 2) {
         let (world, robot) = (facts_of(&call, Subject::World, world)?, facts_of(&call, Subject::Robot, robot)?);
         match built(&world, None, &robot, false, Options::default()) {
             Ok(_) => unify_atom(fault, "none"),
@@ -128,8 +124,7 @@ natives! {
     }
 
     /// sim_stop_
-    semidet fn "sim_stop_"(context) {
-        let call = Call::of(context, "sim_stop", 0);
+    semidet fn "sim_stop_"(context) as call("sim_stop", 0) {
         running::stop(&call)
     }
 
@@ -147,16 +142,14 @@ natives! {
     }
 
     /// sim_place_(+X, +Y, +Heading)
-    semidet fn "sim_place_"(context, x, y, heading) {
-        let call = Call::of(context, "sim_place", 3);
+    semidet fn "sim_place_"(context, x, y, heading) as call("sim_place", 3) {
         let pose = facts::pose(&call, [x, y, heading])?;
         let placed = simulation(context)?.change_world(|machine| machine.place(pose));
         possible(&call, placed)
     }
 
     /// sim_add_(+Fact, -Id)
-    semidet fn "sim_add_"(context, term, id) {
-        let call = Call::of(context, "sim_add", 1);
+    semidet fn "sim_add_"(context, term, id) as call("sim_add", 1) {
         let item = match facts::fact(&call, Subject::World, term)? {
             Some(Fact::Item(item)) => item,
             other => {
@@ -170,36 +163,34 @@ natives! {
     }
 
     /// sim_remove_(+Id)
-    semidet fn "sim_remove_"(context, id) {
-        let id = Call::of(context, "sim_remove", 1).integer(id)?;
+    semidet fn "sim_remove_"(context, id) as call("sim_remove", 1) {
+        let id = call.integer(id)?;
         let id = u32::try_from(id).map_err(|_| PrologError::Failure)?;
         let act = |machine: &mut Machine| machine.remove_item(ItemId(id));
         into_prolog_result(simulation(context)?.change_world(act))
     }
 
     /// sim_plug_(+Port, +Type)
-    semidet fn "sim_plug_"(context, port, kind) {
-        let call = Call::of(context, "sim_plug", 2);
+    semidet fn "sim_plug_"(context, port, kind) as call("sim_plug", 2) {
         let (port, kind) = (port_of(&call, port)?, call.text(kind)?);
         let plugged = simulation(context)?.machine().plug(port, &kind);
         possible(&call, plugged)
     }
 
     /// sim_unplug_(+Port)
-    semidet fn "sim_unplug_"(context, port) {
-        let port = port_of(&Call::of(context, "sim_unplug", 1), port)?;
+    semidet fn "sim_unplug_"(context, port) as call("sim_unplug", 1) {
+        let port = port_of(&call, port)?;
         into_prolog_result(simulation(context)?.machine().unplug(port))
     }
 
     /// sim_detecting_(+Port): the brick has not found out yet what was plugged in.
-    semidet fn "sim_detecting_"(context, port) {
-        let port = port_of(&Call::of(context, "sim_plug", 2), port)?;
+    semidet fn "sim_detecting_"(context, port) as call("sim_plug", 2) {
+        let port = port_of(&call, port)?;
         into_prolog_result(simulation(context)?.machine().is_detecting(port))
     }
 
     /// sim_jam_(+Port, +Bool)
-    semidet fn "sim_jam_"(context, port, fast) {
-        let call = Call::of(context, "sim_jam", 2);
+    semidet fn "sim_jam_"(context, port, fast) as call("sim_jam", 2) {
         let (at, fast) = (port_of(&call, port)?, fast.get_ex()?);
         if !at.is_output() {
             return wrong_value(&call, "motor_port", port);
@@ -209,8 +200,7 @@ natives! {
     }
 
     /// sim_show_(+Port, +Attribute, +Text)
-    semidet fn "sim_show_"(context, port, attribute, text) {
-        let call = Call::of(context, "sim_show", 3);
+    semidet fn "sim_show_"(context, port, attribute, text) as call("sim_show", 3) {
         let (port, name, line) = (port_of(&call, port)?, call.text(attribute)?, call.value(text)?);
         let simulation = simulation(context)?;
         let shown = simulation.machine().show(port, &name, &line);
@@ -219,8 +209,7 @@ natives! {
     }
 
     /// sim_unshow_(+Port, +Attribute)
-    semidet fn "sim_unshow_"(context, port, attribute) {
-        let call = Call::of(context, "sim_unshow", 2);
+    semidet fn "sim_unshow_"(context, port, attribute) as call("sim_unshow", 2) {
         let (port, name) = (port_of(&call, port)?, call.text(attribute)?);
         let simulation = simulation(context)?;
         let was_shown = simulation.machine().unshow(port, &name);
@@ -232,9 +221,8 @@ natives! {
     }
 
     /// sim_wait_(+Seconds, -Reason): `over` at the end.
-    nondet fn "sim_wait_"<Slices<Sleep>>(context, seconds, reason) {
+    nondet fn "sim_wait_"<Slices<Sleep>>(context, seconds, reason) as call("sim_wait", 1) {
         setup => {
-            let call = Call::of(context, "sim_wait", 1);
             let Ok(time) = Duration::try_from_secs_f64(call.float(seconds)?) else {
                 return wrong_value(&call, "seconds", seconds);
             };
@@ -242,14 +230,13 @@ natives! {
             Ok(Some(Sleep::new(Arc::new(files), time)))
         },
         call(sleep) => {
-            let call = Call::of(context, "sim_wait", 1);
             call.slice(sleep, reason, |()| unify_atom(reason, "over"))
         }
     }
 
     /// sim_plan_(+Seconds): runs the due goals of this thread after some time.
-    semidet fn "sim_plan_"(context, after) {
-        let after = Call::of(context, "sim_at", 2).time(after)?;
+    semidet fn "sim_plan_"(context, after) as call("sim_at", 2) {
+        let after = call.time(after)?;
         let bell = Bell::of_this_thread();
         let ring = move || {
             bell.ring();
@@ -260,8 +247,7 @@ natives! {
     }
 
     /// sim_remote_(+Channel, +Buttons)
-    semidet fn "sim_remote_"(context, channel, list) {
-        let call = Call::of(context, "sim_remote", 2);
+    semidet fn "sim_remote_"(context, channel, list) as call("sim_remote", 2) {
         let (channel, held) = (channel_of(&call, channel)?, remote_buttons(&call, list)?);
         match simulation(context)?.change_world(|machine| machine.hold_buttons(channel, &held)) {
             Ok(()) => Ok(()),
@@ -270,8 +256,7 @@ natives! {
     }
 
     /// sim_step_(+Seconds)
-    semidet fn "sim_step_"(context, seconds) {
-        let call = Call::of(context, "sim_step", 1);
+    semidet fn "sim_step_"(context, seconds) as call("sim_step", 1) {
         let Ok(mut left) = Duration::try_from_secs_f64(call.float(seconds)?) else {
             return wrong_value(&call, "seconds", seconds);
         };
@@ -299,8 +284,8 @@ natives! {
     }
 
     /// sim_snapshot_(-Snapshot)
-    semidet fn "sim_snapshot_"(context, snapshot) {
-        let machine = alone(&Call::of(context, "sim_snapshot", 1))?.machine().clone();
+    semidet fn "sim_snapshot_"(context, snapshot) as call("sim_snapshot", 1) {
+        let machine = alone(&call)?.machine().clone();
         snapshot.unify(Arc::new(Snapshot::of(machine)))
     }
 
@@ -310,10 +295,10 @@ natives! {
     }
 
     /// sim_restore_(+Snapshot)
-    semidet fn "sim_restore_"(context, snapshot) {
+    semidet fn "sim_restore_"(context, snapshot) as call("sim_restore", 1) {
         let snapshot: Arc<Snapshot> = snapshot.get_ex()?;
         let machine = locked(&snapshot.machine).clone();
-        let simulation = alone(&Call::of(context, "sim_restore", 1))?;
+        let simulation = alone(&call)?;
         simulation.machine().restore(machine);
         simulation.machine().keep_samples(watch::is_watched());
         watched().begin_film();
@@ -351,15 +336,14 @@ natives! {
     }
 
     /// sim_mount_(+Directory, ?DevDirectory)
-    semidet fn "sim_mount_"(context, classes, dev) {
-        let call = Call::of(context, "sim_mount", 1);
+    semidet fn "sim_mount_"(context, classes, dev) as call("sim_mount", 1) {
         let dev = (!dev.is_var()).then_some(dev);
         mount::mount(&call, &simulation(context)?.shared(), classes, dev)
     }
 
     /// sim_unmount_
-    semidet fn "sim_unmount_"(context) {
-        mount::unmount(&Call::of(context, "sim_unmount", 0))
+    semidet fn "sim_unmount_"(context) as call("sim_unmount", 0) {
+        mount::unmount(&call)
     }
 }
 
@@ -473,7 +457,7 @@ fn options_of<'a, C: Prolog>(
 /// A robot of several: its brick, its name, its facts.
 type Robot = (u32, String, Vec<Fact>);
 
-/// robot(Brick, Name, RobotFacts)
+/// `robot(Brick, Name, RobotFacts)`
 fn robot<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Robot> {
     let [brick, name, facts] = call.arguments(term)?;
     let brick = u32::try_from(call.integer(&brick)?).unwrap_or(u32::MAX);

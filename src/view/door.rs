@@ -25,8 +25,7 @@ const MADE: [Made; 1] = [Made {
 natives! {
     /// view_serve_(+Address, +Port, +Token, +Files, -Served): serves the page, with the files of a
     /// folder, at a port; 0 is any. Served is the port, or a text that says why not.
-    semidet fn "view_serve_"(context, address, port, token, files, served) {
-        let call = Call::of(context, "view", 1);
+    semidet fn "view_serve_"(context, address, port, token, files, served) as call("view", 1) {
         let owned = |term: &Term| call.text(term).map(Text::into_owned);
         let any = call.text(address)? == "any";
         let port = u16::try_from(call.integer(port)?).unwrap_or_default();
@@ -53,8 +52,7 @@ natives! {
 
     /// view_hear_(+Page, +Seconds, -Line): waits so long for a line; `none` if there was none.
     /// Fails if the page has gone.
-    semidet fn "view_hear_"(context, page, seconds, line) {
-        let call = Call::of(context, "view", 1);
+    semidet fn "view_hear_"(context, page, seconds, line) as call("view", 1) {
         match page_of(&call, page)?.hear(call.time(seconds)?) {
             Heard::Line(text) => line.unify(text.as_str()),
             Heard::Nothing => unify_atom(line, "none"),
@@ -63,27 +61,25 @@ natives! {
     }
 
     /// view_say_(+Page, +Json): does nothing if the page was left.
-    semidet fn "view_say_"(context, page, answer) {
-        let call = Call::of(context, "view", 1);
+    semidet fn "view_say_"(context, page, answer) as call("view", 1) {
         say(&call, page, &terms::text(&call, answer)?)
     }
 
     /// view_end_(+Page, +Code): ends the connection with the reason for that (RFC 6455, 7.4).
-    semidet fn "view_end_"(context, page, code) {
-        let call = Call::of(context, "view", 1);
+    semidet fn "view_end_"(context, page, code) as call("view", 1) {
         page_of(&call, page)?.end(u16::try_from(call.integer(code)?).unwrap_or_default());
         Ok(())
     }
 
     /// view_leave_(+Page): nobody serves this page any more.
-    semidet fn "view_leave_"(context, page) {
-        door()?.leave(number_of(&Call::of(context, "view", 1), page)?);
+    semidet fn "view_leave_"(context, page) as call("view", 1) {
+        door()?.leave(number_of(&call, page)?);
         Ok(())
     }
 
     /// view_shut_(+Bye): ends the server and all pages, which get this word.
-    semidet fn "view_shut_"(context, bye) {
-        let bye = terms::text(&Call::of(context, "view_stop", 0), bye)?;
+    semidet fn "view_shut_"(context, bye) as call("view_stop", 0) {
+        let bye = terms::text(&call, bye)?;
         door()?.close(&bye);
         *locked(&DOOR) = None;
         Ok(())

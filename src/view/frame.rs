@@ -2,7 +2,6 @@
 use super::notes::notes;
 use super::state::{Clock, Decimal, Report, Samples};
 use super::{brick, door, simulated};
-use crate::glue::call::Call;
 use crate::glue::state::{chosen_devices, devices, watched};
 use crate::glue::terms::unify_atom;
 use crate::sim::watched_simulation;
@@ -20,8 +19,7 @@ use swipl::prelude::*;
 natives! {
     /// view_frame_(+Page, +Have, +State, +Rate, +Goals): sends a page that has some the next frame.
     /// State is that of the program; Rate and Goals are the page's settings.
-    semidet fn "view_frame_"(context, page, have, state, rate, goals) {
-        let call = Call::of(context, "view", 1);
+    semidet fn "view_frame_"(context, page, have, state, rate, goals) as call("view", 1) {
         let (have, state, rate) = (call.text(have)?, call.text(state)?, call.float(rate)?);
         door::say(&call, page, &next(&have, &state, rate, goals.get_ex()?))
     }

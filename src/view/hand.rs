@@ -18,8 +18,8 @@ static PULLED: Mutex<(u64, Pulled)> = Mutex::new((0, [None; 8]));
 
 natives! {
     /// view_pace_(+Factor): simulated seconds in a second at most; 0 is no limit.
-    semidet fn "view_pace_"(context, factor) {
-        let factor = Call::of(context, "view", 1).float(factor)?;
+    semidet fn "view_pace_"(context, factor) as call("view", 1) {
+        let factor = call.float(factor)?;
         let simulation = simulation()?;
         let limit = match simulation.clock() {
             Clock::Wall(_) => f64::INFINITY,
@@ -38,8 +38,7 @@ natives! {
 
     /// view_step_(+Seconds, +IsIdle): lets time pass while paused. If the program waits for a
     /// person, nobody else would.
-    semidet fn "view_step_"(context, seconds, is_idle) {
-        let call = Call::of(context, "view", 1);
+    semidet fn "view_step_"(context, seconds, is_idle) as call("view", 1) {
         let (time, is_idle) = (call.time(seconds)?, is_idle.get_ex()?);
         let simulation = simulation()?;
         if is_idle && simulation.clock() == Clock::Virtual {
@@ -67,8 +66,7 @@ natives! {
     }
 
     /// view_pull_(+Port): fails if nothing is plugged in.
-    semidet fn "view_pull_"(context, port) {
-        let call = Call::of(context, "view", 1);
+    semidet fn "view_pull_"(context, port) as call("view", 1) {
         let (port, simulation) = (port_of(&call, port)?, simulation()?);
         let driver = simulation.machine().plugged(port);
         let is_pulled = simulation.machine().unplug(port);
@@ -81,8 +79,8 @@ natives! {
     }
 
     /// view_put_back_(+Port, -Driver): what was pulled out of a port; fails if nothing was.
-    semidet fn "view_put_back_"(context, port, driver) {
-        let port = port_of(&Call::of(context, "view", 1), port)?;
+    semidet fn "view_put_back_"(context, port, driver) as call("view", 1) {
+        let port = port_of(&call, port)?;
         match pulled()[port as usize] {
             Some(name) => unify_atom(driver, name),
             None => Err(PrologError::Failure),
@@ -90,8 +88,7 @@ natives! {
     }
 
     /// view_move_(+Id, +X, +Y, +Heading): heading may be an atom. Fails if there is no such item.
-    semidet fn "view_move_"(context, id, x, y, heading) {
-        let call = Call::of(context, "view", 1);
+    semidet fn "view_move_"(context, id, x, y, heading) as call("view", 1) {
         let item = ItemId(u32::try_from(call.integer(id)?).map_err(|_| PrologError::Failure)?);
         let to = [call.float(x)?, call.float(y)?];
         let heading = if heading.is_atom() { None } else { Some(call.float(heading)?) };

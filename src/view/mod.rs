@@ -23,7 +23,6 @@ mod threads;
 use self::notes::notes;
 use self::reach::{keep_samples, seconds, stop_motors};
 use self::state::{Decimal, Entry};
-use crate::glue::call::Call;
 use crate::glue::state::{has_tree, show_brick};
 use crate::glue::watch;
 use crate::sim::running_simulations;
@@ -62,28 +61,26 @@ natives! {
     }
 
     /// view_show_(+Brick): pages show this brick from now on; fails if it is not open.
-    semidet fn "view_show_"(context, number) {
-        let number = Call::of(context, "view", 1).integer(number)?;
+    semidet fn "view_show_"(context, number) as call("view", 1) {
+        let number = call.integer(number)?;
         into_prolog_result(u32::try_from(number).is_ok_and(|number| show_brick(Some(number))))
     }
 
     /// view_has_robot_(+Brick): a tree was chosen for it.
-    semidet fn "view_has_robot_"(context, number) {
-        let number = Call::of(context, "view", 1).integer(number)?;
+    semidet fn "view_has_robot_"(context, number) as call("view", 1) {
+        let number = call.integer(number)?;
         into_prolog_result(u32::try_from(number).is_ok_and(has_tree))
     }
 
     /// view_keep_(+Name, +Json): a member of the frames that is sent when it has changed.
-    semidet fn "view_keep_"(context, name, json) {
-        let call = Call::of(context, "view", 1);
+    semidet fn "view_keep_"(context, name, json) as call("view", 1) {
         let (name, json) = (call.text(name)?, terms::text(&call, json)?);
         notes().keep(&name, json);
         Ok(())
     }
 
     /// view_log_(+Time, +Kind, +Text, +Causes, +About, +Thread): Time is in seconds, or `now`.
-    semidet fn "view_log_"(context, time, kind, text, causes, about, thread) {
-        let call = Call::of(context, "view_mark", 1);
+    semidet fn "view_log_"(context, time, kind, text, causes, about, thread) as call("view_mark", 1) {
         let owned = |term: &Term| Ok(call.text(term)?.into_owned().into());
         let some = |list: &Term| -> PrologResult<_> {
             let texts: Vec<state::Text> = call.map_list(list, |text| owned(&text))?;
@@ -98,8 +95,7 @@ natives! {
     }
 
     /// view_value_(+Name, +Number)
-    semidet fn "view_value_"(context, name, number) {
-        let call = Call::of(context, "view_value", 2);
+    semidet fn "view_value_"(context, name, number) as call("view_value", 2) {
         let (name, number, time) = (call.text(name)?, call.float(number)?, seconds());
         notes().value(&name, time, number);
         Ok(())
@@ -133,8 +129,8 @@ natives! {
     }
 
     /// view_stop_motors_: stops all motors that are connected, with brake, at once.
-    semidet fn "view_stop_motors_"(context) {
-        Call::of(context, "view", 1).or_throw(stop_motors())
+    semidet fn "view_stop_motors_"(context) as call("view", 1) {
+        call.or_throw(stop_motors())
     }
 
     /// view_users_(-Threads): the numbers of the threads that have used devices.
@@ -149,8 +145,7 @@ natives! {
 
     /// view_to_world_(+X, +Y, -WorldX, -WorldY, -Turn): a place of the odometry in the world, and
     /// the turn from its frame to the world's.
-    semidet fn "view_to_world_"(context, x, y, world_x, world_y, turn) {
-        let call = Call::of(context, "view", 1);
+    semidet fn "view_to_world_"(context, x, y, world_x, world_y, turn) as call("view", 1) {
         let to_world = believed::ToWorld::now();
         let [x, y] = to_world.point([call.float(x)?, call.float(y)?]);
         world_x.unify(x)?;

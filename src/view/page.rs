@@ -15,8 +15,7 @@ natives! {
     }
 
     /// view_say_(+Page, +Json)
-    semidet fn "view_say_"(context, page, answer) {
-        let call = Call::of(context, "view", 1);
+    semidet fn "view_say_"(context, page, answer) as call("view", 1) {
         say(&call, page, &terms::text(&call, answer)?)
     }
 }
