@@ -26,6 +26,7 @@ impl Svg {
     }
 
     /// Adds a rectangle: `name` are the attributes before its corner, `style` those after its size.
+    #[inline(never)]
     pub fn rectangle(&mut self, name: &str, [x, y]: Point, [width, height]: [f64; 2], style: &str) {
         self.add(format_args!(
             "<rect{name} x=\"{x:.2}\" y=\"{y:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" {style}/>"
@@ -38,6 +39,7 @@ impl Svg {
     }
 
     /// Adds a circle, with attributes as those of a rectangle.
+    #[inline(never)]
     pub fn circle(&mut self, name: &str, [x, y]: Point, radius: &str, style: &str) {
         self.add(format_args!(
             "<circle{name} cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\" {style}/>"
@@ -45,6 +47,7 @@ impl Svg {
     }
 
     /// Adds a straight line, with attributes as those of a rectangle.
+    #[inline(never)]
     pub fn line(&mut self, name: &str, [[x1, y1], [x2, y2]]: [Point; 2], style: &str) {
         self.add(format_args!(
             "<line{name} x1=\"{x1:.2}\" y1=\"{y1:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" {style}/>"
@@ -65,7 +68,7 @@ impl Svg {
 }
 
 /// Points as SVG lists them.
-pub fn points(list: impl IntoIterator<Item = Point>) -> String {
-    let texts = list.into_iter().map(|[x, y]| format!("{x:.2},{y:.2}"));
+pub fn points(list: &[Point]) -> String {
+    let texts = list.iter().map(|[x, y]| format!("{x:.2},{y:.2}"));
     texts.collect::<Vec<_>>().join(" ")
 }

@@ -37,7 +37,7 @@ fn draw_obstacles(svg: &mut Svg, map: &Map, style: &str) {
     for obstacle in map.obstacles() {
         match &obstacle.0 {
             Shape::Polygon(corners) => {
-                let corners = points(corners.iter().copied());
+                let corners = points(corners);
                 svg.add(format_args!("<polygon points=\"{corners}\" {style}/>"));
             }
             Shape::Circle { center, radius } => {
@@ -48,9 +48,9 @@ fn draw_obstacles(svg: &mut Svg, map: &Map, style: &str) {
 }
 
 fn draw_way(svg: &mut Svg, found: &Solution) {
-    let mut d = format!("M {}", points([found.raw[0]]));
+    let mut d = format!("M {}", points(&found.raw[..1]));
     for segment in found.path.segments() {
-        let to = points([segment.to()]);
+        let to = points(&[segment.to()]);
         // Writing to a string cannot fail.
         let _ = match segment.radius() {
             Some(signed) => {

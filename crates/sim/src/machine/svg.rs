@@ -41,10 +41,11 @@ impl Machine {
             draw_item(&mut svg, id.0, &item);
         }
         let path = self.trace.path().map(|(_, pose)| pose.point()).chain([pose.point()]);
+        let path: Vec<_> = path.collect();
         svg.add(format_args!(
             "<polyline class=\"path\" points=\"{}\" fill=\"none\" stroke=\"#d33\" \
              stroke-width=\"0.8\" stroke-linejoin=\"round\"/>",
-            points(path)
+            points(&path)
         ));
         for hit in self.trace.collisions() {
             let style = "fill=\"#f80\"";
@@ -85,13 +86,13 @@ fn draw_item(svg: &mut Svg, id: u32, item: &Item) {
             svg.circle(name, center, &format!("{radius:.2}"), "fill=\"#987\"");
         }
         Shape::Area { corners, color } => {
-            let corners = points(corners.iter().copied());
+            let corners = points(corners);
             svg.add(format_args!("<polygon{name} points=\"{corners}\" fill=\"{color}\"/>"));
         }
         Shape::Band { points: line, width, color } => svg.add(format_args!(
             "<polyline{name} points=\"{}\" fill=\"none\" stroke=\"{color}\" \
              stroke-width=\"{width:.2}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"/>",
-            points(line.iter().copied())
+            points(line)
         )),
         Shape::Mark { at, class, radius, fill, stroke } => {
             let name = format!("{name} class=\"{class}\"");
