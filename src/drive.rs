@@ -110,8 +110,7 @@ pub(crate) fn counts_in_world() {
     *state::watched().frame() = None;
 }
 
-/// `robot(Left, Right, LeftDiameter, RightDiameter, LeftInverted, RightInverted,
-/// Axle, Offset)`
+/// `robot(Left, Right, LeftDiameter, RightDiameter, LeftInverted, RightInverted, Axle, Offset)`
 fn robot_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Robot> {
     let [left, right, left_diameter, right_diameter, left_inverted, right_inverted, axle, offset] =
         call.arguments(term)?;
@@ -132,8 +131,7 @@ pub(crate) fn drive_of<'a, C: Prolog>(
     Ok(drive)
 }
 
-/// The drive of a robot in the tree in use. If no tree is chosen yet, asks Prolog to
-/// choose one.
+/// The drive of a robot in the tree in use. If no tree is chosen yet, asks Prolog to choose one.
 fn robots_drive<'a, C: Prolog>(call: &Call<'a, C>, robot: &Term<'a>) -> PrologResult<Arc<Drive>> {
     call.devices()?;
     let robot = robot_of(call, robot)?;

@@ -1,5 +1,4 @@
-//! From terms to the facts of worlds and robots, for the simulator and for
-//! roadmaps.
+//! From terms to the facts of worlds and robots, for the simulator and for roadmaps.
 use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_type};
 use crate::glue::places::places;
@@ -9,8 +8,7 @@ use ev3_sim::{Drawing, Echo, Hull, Part, Pose, SpecError, check_bounds};
 use std::str::FromStr;
 use swipl::prelude::*;
 
-/// Reads a fact of a world or a robot, and checks it alone. `None` if there is
-/// no such fact.
+/// Reads a fact of a world or a robot, and checks it alone. `None` if there is no such fact.
 pub(crate) fn fact<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     subject: Subject,

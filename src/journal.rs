@@ -96,8 +96,7 @@ fn new_entries() -> Vec<Entry> {
     entries
 }
 
-/// A whole number of nanoseconds, divided once: so it is written with no more digits than
-/// it has.
+/// A whole number of nanoseconds, divided once: so it is written with no more digits than it has.
 #[expect(clippy::cast_precision_loss, reason = "exact for a hundred days")]
 fn seconds(time: Duration) -> f64 {
     time.as_nanos() as f64 / 1e9

@@ -64,8 +64,7 @@ pub(crate) fn options_of<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult
     })
 }
 
-/// The map of a list of facts: those of a world, of which only obstacles matter, and
-/// polygons.
+/// The map of a list of facts: those of a world, of which only obstacles matter, and polygons.
 pub(crate) fn map_of<'a, C: Prolog>(call: &Call<'a, C>, facts: &Term<'a>) -> PrologResult<Map> {
     let mut map = Map::default();
     for term in call.list(facts)? {

@@ -197,8 +197,7 @@ impl<'a, C: Prolog> Call<'a, C> {
         text.get()
     }
 
-    /// The device files in use. If neither these nor a tree is chosen yet, asks Prolog
-    /// to choose.
+    /// The device files in use. If neither these nor a tree is chosen yet, asks Prolog to choose.
     pub(crate) fn dev(&self) -> PrologResult<Arc<dyn Devfs>> {
         if state::is_dev_chosen() {
             let devices = state::devices();
@@ -381,8 +380,7 @@ impl<'a, C: Prolog> Call<'a, C> {
         self.or_throw(result)?.ok_or(PrologError::Failure)
     }
 
-    /// Handles signals and runs planned goals that are due; `true` if that raised an
-    /// exception.
+    /// Handles signals and runs planned goals that are due; `true` if that raised an exception.
     pub(crate) fn interrupted(&self) -> impl FnMut() -> bool + use<'a, C> {
         let context = self.context;
         move || context.handle_signals().is_err() || run_due_goals(context).is_err()

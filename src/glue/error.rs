@@ -138,17 +138,15 @@ pub(crate) fn too_long<T, C: Prolog>(call: &Origin<C>) -> PrologResult<T> {
     throw(call, &formal, "")
 }
 
-/// Raises the error for a text that Rust, and a file's name, cannot have: half of a surrogate
-/// pair.
+/// Raises the error for a text that Rust, and a file's name, cannot have: half of a surrogate pair.
 pub(crate) fn no_text<T, C: Prolog>(call: &Origin<C>) -> PrologResult<T> {
     let context = call.context;
     let formal = term! {context: representation_error(character)}?;
     throw(call, &formal, "")
 }
 
-/// Raises `error(Formal, context(Called, Message))`, as
-/// `prolog/ev3dev/private/errors/errors.pl` does: that file finds the predicate that the
-/// program called, and words an empty message.
+/// Raises `error(Formal, context(Called, Message))`, as `prolog/ev3dev/private/errors/errors.pl`
+/// does: that file finds the predicate that the program called, and words an empty message.
 fn throw<'a, T, C: Prolog>(
     call: &Origin<'a, C>,
     formal: &Term<'a>,

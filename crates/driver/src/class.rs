@@ -95,8 +95,7 @@ const BATTERIES: [&str; 6] = [
     "evb-battery",
 ];
 
-/// The endings of LED names: since ev3dev-stretch, and on jessie
-/// (docs/ev3dev-sysfs.md, 8.1).
+/// The endings of LED names: since ev3dev-stretch, and on jessie (docs/ev3dev-sysfs.md, 8.1).
 const LED_SUFFIXES: [&str; 2] = [":brick-status", ":ev3dev"];
 
 /// An LED's own color.
@@ -124,8 +123,7 @@ impl Hue {
     }
 }
 
-/// The parts of an LED's name: whose it is and its color. `None` for an LED
-/// that is not ev3dev's.
+/// The parts of an LED's name: whose it is and its color. `None` for an LED that is not ev3dev's.
 pub(crate) fn led_name(name: &str) -> Option<(&str, Hue)> {
     let rest = LED_SUFFIXES.iter().find_map(|suffix| name.strip_suffix(suffix))?;
     let (owner, hue) = rest.rsplit_once(':')?;

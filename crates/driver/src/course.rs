@@ -28,8 +28,7 @@ pub struct DriveOptions {
     pub use_gyro: bool,
 }
 
-/// A part of a motion. Relative ones count from where the part before was to
-/// end.
+/// A part of a motion. Relative ones count from where the part before was to end.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Leg {
     /// Turn on the spot by an angle in degrees.

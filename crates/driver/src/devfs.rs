@@ -31,9 +31,8 @@ pub trait Devfs: Send + Sync {
     /// The time since some fixed moment.
     fn now(&self) -> Duration;
 
-    /// Lets time pass: returns when there may be something to read, when a
-    /// signal arrives, or at `end`. May return early. `false` as for
-    /// [`Sysfs::pause`](crate::sysfs::Sysfs::pause).
+    /// Lets time pass: returns when there may be something to read, when a signal arrives, or at
+    /// `end`. May return early. `false` as for [`Sysfs::pause`](crate::sysfs::Sysfs::pause).
     ///
     /// # Errors
     /// The kernel's, as ENOMEM.

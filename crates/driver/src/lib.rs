@@ -1,12 +1,11 @@
 //! Motors, sensors, lights, ports and the battery over an ev3dev file tree.
 //!
-//! ev3dev shows each device as a directory of small text files, its
-//! *attributes*: `/sys/class/tacho-motor/motor0/position` holds a motor's
-//! position, and writing `run-forever` to `command` beside it makes the motor
-//! turn. This crate finds devices by the port they are plugged into, keeps
-//! their attribute files open, and does on top of that what takes more than
-//! one read or write: run several motors at once, wait until they are done,
-//! read a sensor in a given mode, turn a robot by its gyro.
+//! ev3dev shows each device as a directory of small text files, its *attributes*:
+//! `/sys/class/tacho-motor/motor0/position` holds a motor's position, and writing `run-forever` to
+//! `command` beside it makes the motor turn. This crate finds devices by the port they are plugged
+//! into, keeps their attribute files open, and does on top of that what takes more than one read or
+//! write: run several motors at once, wait until they are done, read a sensor in a given mode, turn
+//! a robot by its gyro.
 //!
 //! ```no_run
 //! use ev3_driver::motor::{Extent, Move, MoveOptions, Speed, run_to};
@@ -43,9 +42,8 @@
 //! The facts about ev3dev's drivers in the comments were read out of the
 //! kernel drivers of `ev3dev/lego-linux-drivers` (stretch and later).
 //!
-//! Nothing here but [`Sysfs::every`] over real files starts a thread; nothing
-//! prints, or waits without asking its caller
-//! every few milliseconds whether to go on ([`Interrupted`]).
+//! Nothing here but [`Sysfs::every`] over real files starts a thread; nothing prints, or waits
+//! without asking its caller every few milliseconds whether to go on ([`Interrupted`]).
 #![forbid(unsafe_code)]
 
 pub mod attributes;

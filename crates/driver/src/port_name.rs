@@ -1,9 +1,8 @@
 //! Names of ports.
 //!
-//! The kernel calls the EV3's ports `ev3-ports:outA` on ev3dev-stretch and
-//! later, `outA` on jessie. Programs may use either, everywhere; devices are
-//! listed under the short name. Other boards' names (`spi0.1:MA`) have no short
-//! form.
+//! The kernel calls the EV3's ports `ev3-ports:outA` on ev3dev-stretch and later, `outA` on jessie.
+//! Programs may use either, everywhere; devices are listed under the short name. Other boards'
+//! names (`spi0.1:MA`) have no short form.
 use std::cmp::Ordering;
 
 /// Prefixes that name the board, on boards with LEGO's own port names.
@@ -14,9 +13,8 @@ pub fn short(address: &str) -> &str {
     BOARDS.iter().find_map(|board| address.strip_prefix(board)).unwrap_or(address)
 }
 
-/// The socket that a port is in: `in1` for the sensor at address 1 of the I2C
-/// bus there, `in1:i2c1`. A sensor on a multiplexer, such as `in1:i2c80:mux1`, is in no
-/// socket.
+/// The socket that a port is in: `in1` for the sensor at address 1 of the I2C bus there,
+/// `in1:i2c1`. A sensor on a multiplexer, such as `in1:i2c80:mux1`, is in no socket.
 pub fn socket(port: &str) -> &str {
     let is_address = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     match short(port).rsplit_once(":i2c") {
@@ -45,8 +43,7 @@ pub fn order(a: &str, b: &str) -> Ordering {
     }
 }
 
-/// The parts of a name: numbers (as length of their digits, digits), and what
-/// is between them.
+/// The parts of a name: numbers (as length of their digits, digits), and what is between them.
 fn chunks(name: &str) -> impl Iterator<Item = (usize, &str)> {
     name.as_bytes().chunk_by(|a, b| a.is_ascii_digit() == b.is_ascii_digit()).scan(
         0,

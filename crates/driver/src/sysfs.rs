@@ -58,10 +58,9 @@ pub trait Sysfs: Send + Sync {
         true
     }
 
-    /// Lets time pass: returns when one of `nodes` announces a change (as the
-    /// kernel does by POLLPRI), when a signal arrives, or at `end`. May return early.
-    /// `false` if no time has passed for this thread: it is to handle signals, and to
-    /// go on with the same pause.
+    /// Lets time pass: returns when one of `nodes` announces a change (as the kernel does by
+    /// POLLPRI), when a signal arrives, or at `end`. May return early. `false` if no time has
+    /// passed for this thread: it is to handle signals, and to go on with the same pause.
     ///
     /// # Errors
     /// The kernel's, as ENOMEM.
@@ -79,9 +78,8 @@ pub trait Sysfs: Send + Sync {
         true
     }
 
-    /// Calls `act` after `period`, by the tree's clock, and from then on each
-    /// time after what it answers, until that is `None`. By default a thread
-    /// does so, by the wall.
+    /// Calls `act` after `period`, by the tree's clock, and from then on each time after what it
+    /// answers, until that is `None`. By default a thread does so, by the wall.
     ///
     /// # Errors
     /// The kernel's, where that takes a thread and none can be had.

@@ -98,10 +98,9 @@ pub fn integer(text: &[u8]) -> Option<i64> {
     if negative { Some(magnitude) } else { magnitude.checked_neg() }
 }
 
-/// A decimal fraction: 15 digits at most, around a point. Neither `inf` nor
-/// `1e5`. Both numbers that are divided are exact in 53 bits, so the quotient is
-/// the float next to the fraction; what the standard library has for all
-/// fractions takes 15 kB on the brick.
+/// A decimal fraction: 15 digits at most, around a point. Neither `inf` nor `1e5`. Both numbers
+/// that are divided are exact in 53 bits, so the quotient is the float next to the fraction; what
+/// the standard library has for all fractions takes 15 kB on the brick.
 #[expect(clippy::cast_precision_loss, reason = "15 digits have less than 53 bits")]
 fn fraction(text: &str) -> Option<f64> {
     let (whole, part) = text.split_once('.')?;

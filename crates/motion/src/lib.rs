@@ -3,9 +3,8 @@
 //! Pure geometry: no devices, no obstacles, no clock. The driver steers along
 //! what is here, and the roadmap finds it.
 //!
-//! Lengths are in centimeters. X goes to the right and y up; headings are in
-//! degrees, 0 along +y and clockwise positive. The same input gives the same bits
-//! on every machine.
+//! Lengths are in centimeters. X goes to the right and y up; headings are in degrees, 0 along +y
+//! and clockwise positive. The same input gives the same bits on every machine.
 //!
 //! A [`Svg`] is a picture of the plane. A [`Segment`] is a line or an arc, a [`Path`] is made of segments. Corners
 //! become arcs:

@@ -57,8 +57,7 @@ impl Path {
         Self::new(segments)
     }
 
-    /// Poses along it, at most a step apart, each with the distance from its
-    /// start.
+    /// Poses along it, at most a step apart, each with the distance from its start.
     pub fn samples(&self, step: f64) -> impl Iterator<Item = (f64, Pose)> + '_ {
         let mut before = 0.0;
         self.segments.iter().flat_map(move |segment| {
@@ -79,9 +78,8 @@ impl Path {
         direction(start, self.beyond(AHEAD))
     }
 
-    /// How a robot at a pose stays on its way: how much of the way it has
-    /// behind it, in cm, given how much it had before; and by how much to turn
-    /// on each cm, in degrees, clockwise positive.
+    /// How a robot at a pose stays on its way: how much of the way it has behind it, in cm, given
+    /// how much it had before; and by how much to turn on each cm, in degrees, clockwise positive.
     pub fn steer(&self, at: Pose, before: f64) -> (f64, f64) {
         let window = before..=before + 2.0 * AHEAD;
         let near = self.samples(0.5).filter(|(way, _)| window.contains(way));

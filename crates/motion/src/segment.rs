@@ -107,8 +107,7 @@ impl Segment {
         (self.length * self.curvature).to_degrees()
     }
 
-    /// In cm, positive if the center is on the right, negative if on the left.
-    /// `None` for a line.
+    /// In cm, positive if the center is on the right, negative if on the left. `None` for a line.
     pub fn radius(&self) -> Option<f64> {
         self.radius
     }

@@ -1,9 +1,8 @@
 //! Ways for a round robot among obstacles in the plane.
 //!
-//! A [`Map`] holds polygons, which may be concave, and circles. A way is found
-//! for the robot's center, which keeps a distance from all of them: the
-//! robot's radius, and what it is to leave as a margin. [`plan`] does it in
-//! two steps:
+//! A [`Map`] holds polygons, which may be concave, and circles. A way is found for the robot's
+//! center, which keeps a distance from all of them: the robot's radius, and what it is to leave as
+//! a margin. [`plan`] does it in two steps:
 //!
 //! 1. a **roadmap**, straight lines that keep the distance, and the shortest
 //!    way along it: the *visibility graph* joins the corners of the obstacles
@@ -18,9 +17,8 @@
 //! stands, so that the robot may go there, and obstacles that the map lacks.
 //! [`Views::next_step`] plans with both, and says how far the robot may go.
 //!
-//! Lengths are in centimeters. X goes to the right and y up; headings are in
-//! degrees, 0 along +y and clockwise positive. The same input gives the same
-//! bits on every machine.
+//! Lengths are in centimeters. X goes to the right and y up; headings are in degrees, 0 along +y
+//! and clockwise positive. The same input gives the same bits on every machine.
 //!
 //! ```
 //! use ev3_roadmap::{Map, Obstacle, Options, plan};

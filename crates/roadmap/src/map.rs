@@ -233,8 +233,7 @@ impl Map {
             && !self.covers(at)
     }
 
-    /// True if a straight line, of which one end is outside of all obstacles,
-    /// keeps a distance.
+    /// True if a straight line, of which one end is outside of all obstacles, keeps a distance.
     pub(crate) fn line_clear(&self, from: Point, to: Point, keep: f64) -> bool {
         let line = Edge::new([from, to]);
         let near = |edge: &&Edge| !apart(&edge.extent, &line.extent, keep);
@@ -246,8 +245,7 @@ impl Map {
             && self.edges.iter().filter(near).all(|edge| to_edge(edge) >= keep)
     }
 
-    /// True if an arc, of which one end is outside of all obstacles, keeps a
-    /// distance.
+    /// True if an arc, of which one end is outside of all obstacles, keeps a distance.
     pub(crate) fn arc_clear(&self, segment: &ev3_motion::Segment, keep: f64) -> bool {
         let Some(arc) = Arc::of(segment) else {
             return self.line_clear(segment.from(), segment.to(), keep);
@@ -262,8 +260,7 @@ impl Map {
                 .all(|edge| arc.distance_to_segment(&edge.segment) >= keep)
     }
 
-    /// The bounds, or else a box around all obstacles and these points with
-    /// room for a robot.
+    /// The bounds, or else a box around all obstacles and these points with room for a robot.
     pub(crate) fn extent(&self, points: [Point; 2], room: f64) -> Bounds {
         if let Some(bounds) = self.bounds {
             return bounds;

@@ -1,6 +1,5 @@
-//! A probabilistic roadmap: points drawn at random, each joined with those
-//! next to it. As many neighbors as PRM* takes, so that with more points the
-//! way comes ever closer to the shortest.
+//! A probabilistic roadmap: points drawn at random, each joined with those next to it. As many
+//! neighbors as PRM* takes, so that with more points the way comes ever closer to the shortest.
 use crate::geometry::{Point, distance};
 use crate::map::Map;
 use crate::problem::{SLACK, Sought};

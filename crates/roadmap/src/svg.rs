@@ -7,9 +7,8 @@ use std::fmt::Write;
 /// Room around everything, in cm.
 const MARGIN: f64 = 10.0;
 
-/// An SVG picture, one unit a centimeter, y up: the obstacles, each with what
-/// must be kept free around it, the lines of the roadmap that were looked at,
-/// and the way.
+/// An SVG picture, one unit a centimeter, y up: the obstacles, each with what must be kept free
+/// around it, the lines of the roadmap that were looked at, and the way.
 pub fn svg(map: &Map, found: &Solution, keep: f64) -> String {
     let ends = [found.raw[0], found.raw[found.raw.len() - 1]];
     let frame = map.extent(ends, 0.0).with_room(MARGIN);

@@ -1,11 +1,10 @@
 //! The echoes that an ultrasonic sensor has measured.
 //!
-//! The sensor measures the distance of the nearest thing in a cone, 15 degrees to each
-//! side, but not its direction in the cone. So one look has two results: the cone is
-//! free up to that distance, and a thing stands somewhere on the arc at that distance.
-//! The robot relies on the first: it drives only where it has looked. Looks from other
-//! directions narrow the second: they show parts of the arc to be free, and the thing
-//! is on the rest of the arc.
+//! The sensor measures the distance of the nearest thing in a cone, 15 degrees to each side, but
+//! not its direction in the cone. So one look has two results: the cone is free up to that
+//! distance, and a thing stands somewhere on the arc at that distance. The robot relies on the
+//! first: it drives only where it has looked. Looks from other directions narrow the second: they
+//! show parts of the arc to be free, and the thing is on the rest of the arc.
 use crate::geometry::{
     Point, Vec2, cross, distance, heading_vector, left_of, length, parry, point, rotated, vec2,
 };
@@ -115,8 +114,7 @@ impl Look {
 #[derive(Clone, Copy, Debug)]
 struct Place {
     at: Point,
-    /// How far to the right and to the left of the middle looks have an echo
-    /// from here, as sines.
+    /// How far to the right and to the left of the middle looks have an echo from here, as sines.
     aside: [f64; 2],
 }
 
@@ -220,8 +218,7 @@ impl Views {
         }
     }
 
-    /// Notes a look. One from where the last one was, to where it looked, is
-    /// left out.
+    /// Notes a look. One from where the last one was, to where it looked, is left out.
     pub fn add(&mut self, view: View) {
         let ahead = heading_vector(view.heading);
         let is_new = |Seen { look: last, .. }: &Seen| {
@@ -263,8 +260,7 @@ impl Views {
         self.trail.iter().rev().any(|place| distance(*place, at) < reach)
     }
 
-    /// How far the robot can follow a path and stay, with a margin in cm, where
-    /// nothing stands.
+    /// How far the robot can follow a path and stay, with a margin in cm, where nothing stands.
     pub fn safe(&self, path: &Path, margin: f64) -> Safe {
         let mut safe = Safe { way: 0.0, unseen: None };
         for (way, pose) in path.samples(STEP) {
@@ -325,8 +321,7 @@ impl Views {
         self.sifted = self.seen.len();
     }
 
-    /// The places that a look's echo may have come from, unless the map has an
-    /// obstacle there.
+    /// The places that a look's echo may have come from, unless the map has an obstacle there.
     fn echo(&self, seen: &Seen, known: &Map) -> Vec<Point> {
         if seen.places.iter().any(|place| !known.point_clear(place.at, KNOWN)) {
             return Vec::new();

@@ -1,10 +1,9 @@
 //! The visibility graph of obstacles that are blown up by the robot's radius.
 //!
-//! A shortest way runs straight from corner to corner. Blown up, an obstacle's
-//! corner is an arc; that is taken as a piece of the polygon around it whose
-//! corners are at most 45 degrees apart. So a way is at most 8 % of the radius
-//! farther out than it would have to be, and smoothing has it back. Where that
-//! is too far out for a narrow place, 22.5 degrees make it 2 %.
+//! A shortest way runs straight from corner to corner. Blown up, an obstacle's corner is an arc;
+//! that is taken as a piece of the polygon around it whose corners are at most 45 degrees apart. So
+//! a way is at most 8 % of the radius farther out than it would have to be, and smoothing has it
+//! back. Where that is too far out for a narrow place, 22.5 degrees make it 2 %.
 use crate::geometry::{Point, Vec2, angle, cross, left_of, point, rotated, unit, vec2};
 use crate::map::{Map, Obstacle, Shape};
 use crate::problem::{SLACK, Sought};

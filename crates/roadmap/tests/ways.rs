@@ -190,9 +190,8 @@ proptest! {
                 let length = |found: &Solution| -> f64 {
                     found.raw.windows(2).map(|pair| distance(pair[0], pair[1])).sum()
                 };
-                // Around the outside of its polygons it is longer by at most
-                // this; where it begins or ends within them, it may go to a
-                // corner and back, too.
+                // Around the outside of its polygons it is longer by at most this; where it begins
+                // or ends within them, it may go to a corner and back, too.
                 let most = length(&drawn) / (std::f64::consts::PI / 8.0).cos();
                 let within = [[x, y], [u, v]].map(|end| within_outlines(&things, end));
                 let ends: f64 = within.iter().sum();

@@ -15,8 +15,7 @@ const NOT_YET: u8 = 0;
 const BEGINS: u8 = 1;
 const IS: u8 = 2;
 
-/// A motor that is stopped when the program ends in any way. Dropped before its file is
-/// closed.
+/// A motor that is stopped when the program ends in any way. Dropped before its file is closed.
 pub struct Kept(&'static Slot);
 
 impl Kept {

@@ -1,9 +1,8 @@
 //! The latch: while it is set, no motor can be started, by no thread and in no tree.
 //!
-//! A program whose motors were stopped could start them again before it ends, or before it
-//! has been interrupted. So whatever starts a motor looks at the latch last, beside its
-//! write and under the motor's lock; and a stop of the motors sets it first. A handler
-//! of a signal may do so, too.
+//! A program whose motors were stopped could start them again before it ends, or before it has been
+//! interrupted. So whatever starts a motor looks at the latch last, beside its write and under the
+//! motor's lock; and a stop of the motors sets it first. A handler of a signal may do so, too.
 use std::sync::atomic::{AtomicU8, AtomicU32, Ordering};
 
 /// Why no motor may start. Each reason is set and lifted for itself.

@@ -56,8 +56,7 @@ static LENGTH: AtomicUsize = AtomicUsize::new(0);
 static ADDING: Mutex<()> = Mutex::new(());
 
 impl Slot {
-    /// The slot of an open file, with this line after its first byte; `None` if there is no
-    /// room.
+    /// The slot of an open file, with this line after its first byte; `None` if there is no room.
     ///
     /// # Errors
     /// The kernel's, if there is no descriptor left.

@@ -1,12 +1,11 @@
 //! A process that outlives this one, and stops its motors then: after SIGKILL, the memory
 //! killer, or a crash, too.
 //!
-//! It is a shell that waits for the end of a pipe whose other end is this process's, and
-//! then goes through the lines of [`crate::kept`], of which it has the file. It begins with
-//! the first motor that runs, takes some 100 kB, and shares neither signals, nor session,
-//! nor descriptors with this process: Ctrl-C, Ctrl-Z, and SIGKILL to a group of processes
-//! do not reach it. It is nobody's child, so that a program that waits for any child does
-//! not find it.
+//! It is a shell that waits for the end of a pipe whose other end is this process's, and then goes
+//! through the lines of [`crate::kept`], of which it has the file. It begins with the first motor
+//! that runs, takes some 100 kB, and shares neither signals, nor session, nor descriptors with this
+//! process: Ctrl-C, Ctrl-Z, and SIGKILL to a group of processes do not reach it. It is nobody's
+//! child, so that a program that waits for any child does not find it.
 //!
 //! A pipe, and no PDEATHSIG or pidfd: the former ends with the thread that asked for it,
 //! the latter needs Linux 5.3. The pipe ends when the last thread has gone, so that nobody
@@ -63,8 +62,7 @@ impl Plan {
     }
 }
 
-/// Starts it, with the file of the lines. Where there can be no process, nothing is lost but
-/// this.
+/// Starts it, with the file of the lines. Where there can be no process, nothing is lost but this.
 ///
 /// # Errors
 /// The kernel's, where no descriptor is left.
@@ -125,10 +123,9 @@ pub(crate) fn forked() {
     }
 }
 
-/// A new process that has this one's memory, which waits until the new one has another
-/// program or has ended: copying the tables of a process of 30 MB takes longer. Without a
-/// signal at its end, `wait` for any child does not find it; an emulator of a processor wants
-/// one.
+/// A new process that has this one's memory, which waits until the new one has another program or
+/// has ended: copying the tables of a process of 30 MB takes longer. Without a signal at its end,
+/// `wait` for any child does not find it; an emulator of a processor wants one.
 unsafe fn process(
     run: extern "C" fn(*mut c_void) -> c_int,
     stack: *mut c_void,

@@ -47,9 +47,8 @@
 //!
 //! # Waiting
 //!
-//! A [`Machine`] has no clock of its own; a [`Simulation`] gives it one, by the wall or virtual.
-//! An adapter may also step the machine itself. Here a program that waits for a file lets time
-//! jump:
+//! A [`Machine`] has no clock of its own; a [`Simulation`] gives it one, by the wall or virtual. An
+//! adapter may also step the machine itself. Here a program that waits for a file lets time jump:
 //!
 //! ```no_run
 //! # use ev3_sim::{Access, Descriptor, Machine};

@@ -1,10 +1,8 @@
 //! Functions that every version from 7.2 to 10 has.
 //!
-//! Three kinds, as the headers declare them:
-//! [`truth!`] declares those that answer `int` in old versions and `bool` in
-//! new ones; [`translated!`] those that take or answer numbers which changed
-//! ([`crate::version`]); the plain `extern` block those that are the same
-//! everywhere.
+//! Three kinds, as the headers declare them: [`truth!`] declares those that answer `int` in old
+//! versions and `bool` in new ones; [`translated!`] those that take or answer numbers which changed
+//! ([`crate::version`]); the plain `extern` block those that are the same everywhere.
 use crate::types::{
     BUF_DISCARDABLE, CVT_ATOM, IOSTREAM, PL_INTEGER, PL_blob_t, PL_engine_t, PL_fid_t, REP_UTF8,
     atom_t, control_t, functor_t, module_t, predicate_t, qid_t, record_t, term_t,
@@ -14,10 +12,9 @@ use std::cell::Cell;
 use std::ffi::{CStr, c_char, c_int, c_uchar, c_void};
 use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU32, Ordering};
 
-/// Declares functions whose result is a truth value: `int` in old headers,
-/// `bool` in new ones. A `bool` leaves all but the low byte of the result
-/// register undefined, and an `int` that is 0 or 1 has its value there, so
-/// the low byte is right for both.
+/// Declares functions whose result is a truth value: `int` in old headers, `bool` in new ones. A
+/// `bool` leaves all but the low byte of the result register undefined, and an `int` that is 0 or 1
+/// has its value there, so the low byte is right for both.
 macro_rules! truth {
     ($($name:ident($($arg:ident: $type:ty),*);)*) => {$(
         #[inline]
@@ -78,9 +75,8 @@ truth! {
     PL_unify_string_nchars(t: term_t, len: usize, chars: *const c_char);
 }
 
-/// Whether there is a running Prolog to talk to. `swipl` asks before it touches
-/// anything, several times a call; in a library that Prolog has loaded, once
-/// yes is always yes.
+/// Whether there is a running Prolog to talk to. `swipl` asks before it touches anything, several
+/// times a call; in a library that Prolog has loaded, once yes is always yes.
 pub unsafe fn PL_is_initialised(count: *mut c_int, args: *mut *mut *mut c_char) -> c_int {
     static IS_INITIALISED: AtomicBool = AtomicBool::new(false);
     #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
@@ -196,8 +192,7 @@ pub unsafe fn atom_in(t: term_t) -> Option<atom_t> {
     unsafe { (PL_get_atom(t, &raw mut atom) != 0).then_some(atom) }
 }
 
-/// The integer that a term is, if it is one of at most 64 bits; no
-/// float.
+/// The integer that a term is, if it is one of at most 64 bits; no float.
 pub unsafe fn integer_in(t: term_t) -> Option<i64> {
     let mut integer = 0;
     unsafe { (PL_is_integer(t) != 0 && PL_get_int64(t, &raw mut integer) != 0).then_some(integer) }
@@ -215,8 +210,7 @@ macro_rules! atom_in {
     }};
 }
 
-/// The integer that a term is, if it is one of at most 64 bits. Makes sure of the engine
-/// once.
+/// The integer that a term is, if it is one of at most 64 bits. Makes sure of the engine once.
 #[macro_export]
 macro_rules! integer_in {
     ($term:expr) => {{
@@ -429,9 +423,8 @@ pub fn has_other_threads() -> bool {
     }
 }
 
-/// Declares functions that take a query, narrowing it to what C expects. (Before
-/// version 8, `PL_close_query` and `PL_cut_query` answer nothing: `swipl` does
-/// not look at their results.)
+/// Declares functions that take a query, narrowing it to what C expects. (Before version 8,
+/// `PL_close_query` and `PL_cut_query` answer nothing: `swipl` does not look at their results.)
 macro_rules! of_query {
     ($($name:ident -> $result:ty;)*) => {$(
         #[inline]

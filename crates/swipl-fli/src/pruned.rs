@@ -1,10 +1,9 @@
 //! What is done before a predicate is called.
 //!
-//! *Nondeterministic predicates before SWI-Prolog 8.1.30.* There a predicate that throws,
-//! or fails, when it is called for another solution is called once more, to give up the
-//! context that it has given up already: a double free. So in those versions the contexts
-//! that Prolog has are known here, and a predicate is called through a function that
-//! leaves out the call for any other.
+//! *Nondeterministic predicates before SWI-Prolog 8.1.30.* There a predicate that throws, or fails,
+//! when it is called for another solution is called once more, to give up the context that it has
+//! given up already: a double free. So in those versions the contexts that Prolog has are known
+//! here, and a predicate is called through a function that leaves out the call for any other.
 //!
 //! *Answers at once.* The few predicates that a robot calls thousands of times a second may
 //! have a [`Quick`] function, which answers the common calls. It does without the care of

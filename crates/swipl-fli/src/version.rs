@@ -8,10 +8,9 @@
 //!   types of terms moved up by one, and the flags of text functions got new
 //!   bits.
 //!
-//! This crate and `swipl` use the numbers of [`crate::types`], those since
-//! 8.1.22. The running version is asked here, once, and the numbers are
-//! translated here and nowhere else. The tables hold what the headers of
-//! V7.2.3, V7.6.4 and V8.0.3 say, which agree, beside those of V8.2.4 to
+//! This crate and `swipl` use the numbers of [`crate::types`], those since 8.1.22. The running
+//! version is asked here, once, and the numbers are translated here and nowhere else. The tables
+//! hold what the headers of V7.2.3, V7.6.4 and V8.0.3 say, which agree, beside those of V8.2.4 to
 //! V10.1.12, which agree, too.
 use crate::types::{
     PL_BLOB, PL_FLOAT, PL_LIST_PAIR, PL_NIL, PL_Q_EXT_STATUS, PL_STRING, PL_TERM, REP_UTF8,
@@ -98,8 +97,7 @@ impl Version {
         if self.translates() { text_flags_before(flags) } else { flags }
     }
 
-    /// A type and flags for `PL_unify_chars` or `PL_put_chars`, as this version
-    /// takes them.
+    /// A type and flags for `PL_unify_chars` or `PL_put_chars`, as this version takes them.
     #[inline]
     pub(crate) fn typed_text_flags(self, flags: c_int) -> c_int {
         if self.translates() {
@@ -175,9 +173,8 @@ mod tests {
     const SINCE: [Version; 5] =
         [Version(8_01_22), Version(8_02_04), Version(9_00_04), Version(9_02_09), Version(10_01_12)];
 
-    /// Every constant of `types.rs` but the bits of streams and blobs, as the
-    /// headers have it: ours, before 8.1.22 (none if there was no such thing),
-    /// since.
+    /// Every constant of `types.rs` but the bits of streams and blobs, as the headers have it:
+    /// ours, before 8.1.22 (none if there was no such thing), since.
     const TYPES_IN_HEADERS: [(u32, Option<u32>, u32); 11] = [
         (PL_VARIABLE, Some(1), 1),
         (PL_ATOM, Some(2), 2),

@@ -1,8 +1,7 @@
 //! The battery: class `power_supply`.
 //!
-//! Its voltage shows roughly how full it is: it depends on the chemistry, falls
-//! while motors draw current, and hardly changes in the middle of the
-//! discharge.
+//! Its voltage shows roughly how full it is: it depends on the chemistry, falls while motors draw
+//! current, and hardly changes in the middle of the discharge.
 use crate::class::Class;
 use crate::device::Device;
 use crate::device::registry::Registry;
@@ -19,10 +18,9 @@ struct Chemistry {
     curve: &'static [(f64, f64)],
 }
 
-/// The EV3's batteries. Each curve was read, to some 5 percent, off
-/// manufacturers' data sheets for a current of a fifth of the capacity an hour,
-/// which is about what a driving robot draws; it ends where brickd shuts the
-/// brick down, at 6.0 V or 4.5 V, or where nothing is left before.
+/// The EV3's batteries. Each curve was read, to some 5 percent, off manufacturers' data sheets for
+/// a current of a fifth of the capacity an hour, which is about what a driving robot draws; it ends
+/// where brickd shuts the brick down, at 6.0 V or 4.5 V, or where nothing is left before.
 const CHEMISTRIES: [Chemistry; 3] = [
     // LEGO's own pack. Cells as Panasonic's NCR18650.
     Chemistry {
@@ -72,8 +70,7 @@ pub fn volts(battery: &Device) -> Result<f64> {
     battery.number("voltage_now").map(from_micros)
 }
 
-/// The current that is drawn, in amperes; `None` on boards that do not measure
-/// it.
+/// The current that is drawn, in amperes; `None` on boards that do not measure it.
 pub fn amperes(battery: &Device) -> Result<Option<f64>> {
     Ok(if_there(battery.number("current_now"))?.map(from_micros))
 }

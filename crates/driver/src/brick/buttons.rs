@@ -1,9 +1,8 @@
 //! The buttons on the brick.
 //!
-//! The kernel's gpio-keys driver shows them as an event device below
-//! `/dev/input`. A reader may ask which buttons are down, and gets an event for
-//! each button that is pressed or released after it opened the device. Each
-//! reader has a queue of its own.
+//! The kernel's gpio-keys driver shows them as an event device below `/dev/input`. A reader may ask
+//! which buttons are down, and gets an event for each button that is pressed or released after it
+//! opened the device. Each reader has a queue of its own.
 //!
 //! A plain file may stand in for the device: it holds the earlier events, and a
 //! reader that waits gets those that are appended.

@@ -1,15 +1,13 @@
 //! Lights: class `leds`.
 //!
-//! The brick has a light on its left and one on its right, each made of a red
-//! and a green LED, which the kernel shows as two devices. They are called
-//! `led0:red:brick-status` or, on jessie, `ev3:left:red:ev3dev`. Other boards have
-//! other LEDs, or none; and an output port in the mode `led` is one without a
-//! color, `ev3-ports:outA::brick-status`.
+//! The brick has a light on its left and one on its right, each made of a red and a green LED,
+//! which the kernel shows as two devices. They are called `led0:red:brick-status` or, on jessie,
+//! `ev3:left:red:ev3dev`. Other boards have other LEDs, or none; and an output port in the mode
+//! `led` is one without a color, `ev3-ports:outA::brick-status`.
 //!
-//! The *trigger* of an LED switches it: nothing (`none`), `heartbeat`, which
-//! brickrun sets while a program runs, or a timer, whose files `delay_on` and
-//! `delay_off` exist only as long as it is the trigger. A brightness stays only
-//! without a trigger (docs/ev3dev-sysfs.md, 8.1).
+//! The *trigger* of an LED switches it: nothing (`none`), `heartbeat`, which brickrun sets while a
+//! program runs, or a timer, whose files `delay_on` and `delay_off` exist only as long as it is the
+//! trigger. A brightness stays only without a trigger (docs/ev3dev-sysfs.md, 8.1).
 use crate::class::{Class, Hue, led_name};
 use crate::device::registry::Registry;
 use crate::device::retry::{until_some, while_permissions_settle};
@@ -152,8 +150,7 @@ impl Light {
         })
     }
 
-    /// The brightness of each LED for a color, or `None` where the light cannot show
-    /// it.
+    /// The brightness of each LED for a color, or `None` where the light cannot show it.
     fn mix(&self, color: &Color) -> Option<Vec<(&Arc<Device>, i64)>> {
         let hues = [Hue::Red, Hue::Green, Hue::Blue];
         let with = |mix: &[(Hue, i64)]| {
@@ -196,8 +193,7 @@ impl Light {
         Ok(text.split_ascii_whitespace().map(|word| bare(word).to_owned()).collect())
     }
 
-    /// The LEDs that make its color: those that shine or are switched; all of a
-    /// light that is off.
+    /// The LEDs that make its color: those that shine or are switched; all of a light that is off.
     fn shining(&self) -> Result<Vec<Arc<Device>>> {
         let mut shining = Vec::new();
         for (_, led) in &self.leds {
@@ -211,8 +207,7 @@ impl Light {
         Ok(shining)
     }
 
-    /// How long it is on and off while it blinks, in milliseconds; `None` if it
-    /// does not.
+    /// How long it is on and off while it blinks, in milliseconds; `None` if it does not.
     pub fn delays(&self) -> Result<Option<(i64, i64)>> {
         for (_, led) in &self.leds {
             if trigger(led)? == TIMER {
@@ -251,8 +246,7 @@ pub fn set_color(
     })
 }
 
-/// Lets something else switch a light, in the color it shows. `None` where
-/// there is no such light.
+/// Lets something else switch a light, in the color it shows. `None` where there is no such light.
 ///
 /// # Errors
 /// The kernel's, as EINVAL for a trigger it does not know; [`Error::Interrupted`].

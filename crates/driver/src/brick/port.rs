@@ -1,10 +1,9 @@
 //! Ports themselves: class `lego-port`.
 //!
-//! Most devices are detected when they are plugged in. The others, as a motor
-//! without rotation sensor, appear when their port is put into a *mode*; and a
-//! program may set which of several types is plugged in. Both make a
-//! new device, even where nothing changes. So these functions write only where
-//! something changes, and wait for the device.
+//! Most devices are detected when they are plugged in. The others, as a motor without rotation
+//! sensor, appear when their port is put into a *mode*; and a program may set which of several
+//! types is plugged in. Both make a new device, even where nothing changes. So these functions
+//! write only where something changes, and wait for the device.
 use crate::brick::light;
 use crate::class::Class;
 use crate::device::Device;
@@ -15,9 +14,8 @@ use crate::error::{Error, Interrupted, Result};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// How long a device may take to appear and to be open to us: a serial sensor
-/// introduces itself in about 1.5 s, an I2C sensor is given 1 s to boot, and
-/// udev may take another second.
+/// How long a device may take to appear and to be open to us: a serial sensor introduces itself in
+/// about 1.5 s, an I2C sensor is given 1 s to boot, and udev may take another second.
 pub const APPEARS_WITHIN: Duration = Duration::from_secs(4);
 
 /// How long a port takes to detect what is plugged in: 0.4 s.
@@ -29,8 +27,7 @@ const NOTHING: [&str; 2] = ["no-motor", "no-sensor"];
 /// The classes of devices that are on ports.
 const ON_PORTS: [Class; 4] = [Class::TachoMotor, Class::DcMotor, Class::ServoMotor, Class::Sensor];
 
-/// The types of tacho motors that can be set on an output port
-/// (`ev3_motor_defs.c`).
+/// The types of tacho motors that can be set on an output port (`ev3_motor_defs.c`).
 const MOTOR_TYPES: [&str; 5] =
     ["lego-ev3-l-motor", "lego-ev3-m-motor", "lego-nxt-motor", "act-l12-ev3-50", "act-l12-ev3-100"];
 
@@ -67,14 +64,12 @@ fn device_at(registry: &Registry, port: &str) -> Result<Option<Arc<Device>>> {
     Ok(None)
 }
 
-/// Puts a port into a mode, if it is in another, and waits until the device that
-/// the mode makes is there and can be written. The mode `auto` makes none, but
-/// looks for one: what is detected is waited for. `None` if there is no such
-/// port, `false` if that device does not appear.
+/// Puts a port into a mode, if it is in another, and waits until the device that the mode makes is
+/// there and can be written. The mode `auto` makes none, but looks for one: what is detected is
+/// waited for. `None` if there is no such port, `false` if that device does not appear.
 ///
 /// # Errors
-/// The kernel's, as EINVAL for a mode the port does not have;
-/// [`Error::Interrupted`].
+/// The kernel's, as EINVAL for a mode the port does not have; [`Error::Interrupted`].
 pub fn set_mode(
     registry: &Registry,
     port: &str,
@@ -120,9 +115,8 @@ fn detects(registry: &Registry, port: &str, interrupted: Interrupted) -> Result<
     })
 }
 
-/// Sets the device of a port, if another one is there, and waits
-/// until that one is there and can be written. `None` if there is no such
-/// port, `false` if the device does not appear.
+/// Sets the device of a port, if another one is there, and waits until that one is there and can be
+/// written. `None` if there is no such port, `false` if the device does not appear.
 ///
 /// # Errors
 /// [`Error::UnknownMotorType`] for a type that no output port has; the kernel's, as

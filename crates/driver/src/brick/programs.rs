@@ -128,9 +128,8 @@ pub(crate) struct Programs {
 }
 
 impl Programs {
-    /// Starts programs, in the order of the pipe between them, and waits until
-    /// all have ended, by themselves or by [`end`](Self::end). However it is
-    /// left, they have.
+    /// Starts programs, in the order of the pipe between them, and waits until all have ended, by
+    /// themselves or by [`end`](Self::end). However it is left, they have.
     pub(crate) fn run<const N: usize>(
         &self,
         dev: &Arc<dyn Devfs>,

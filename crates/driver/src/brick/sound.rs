@@ -1,9 +1,8 @@
 //! The loudspeaker.
 //!
-//! Tones are made by the kernel: an event written to the sound device starts
-//! one, and another ends it. Speech and recordings are played by programs,
-//! `espeak`, `aplay`, and the volume is set by `amixer`; a simulated speaker
-//! does without them.
+//! Tones are made by the kernel: an event written to the sound device starts one, and another ends
+//! it. Speech and recordings are played by programs, `espeak`, `aplay`, and the volume is set by
+//! `amixer`; a simulated speaker does without them.
 //!
 //! The kernel's driver (`legoev3_sound.c`) makes tones of 100 to 10000 Hz, and
 //! none while a recording plays.
@@ -31,8 +30,7 @@ const DEVICES: [&str; 2] =
 const EV_SND: u16 = 0x12;
 const SND_TONE: u16 = 2;
 
-/// Controls of a mixer that make things loud: PCM and beeps on stretch, both
-/// on jessie, a PC's.
+/// Controls of a mixer that make things loud: PCM and beeps on stretch, both on jessie, a PC's.
 const CONTROLS: [&str; 4] = ["PCM", "Beep", "Playback", "Master"];
 
 /// A part of a song.
@@ -61,9 +59,8 @@ pub struct Sound {
 }
 
 impl Sound {
-    /// Plays tones one after the other, and waits until they are over; `None`
-    /// if there is no speaker. The speaker is silent afterwards, also when the wait
-    /// is left.
+    /// Plays tones one after the other, and waits until they are over; `None` if there is no
+    /// speaker. The speaker is silent afterwards, also when the wait is left.
     ///
     /// # Errors
     /// The kernel's, as EACCES for a user who is not in the group `input`.
@@ -161,8 +158,7 @@ impl Sound {
     /// Plays a recording, a WAV file, and waits until it is over.
     ///
     /// # Errors
-    /// As [`say`](Self::say); [`Error::Open`], [`Error::Format`] for what is no
-    /// WAV file.
+    /// As [`say`](Self::say); [`Error::Open`], [`Error::Format`] for what is no WAV file.
     pub fn play(&self, dev: &Arc<dyn Devfs>, path: &Path) -> Result<AnyWait<'_, ()>> {
         let lasts = length_of(path)?;
         let Some(speaker) = dev.speaker() else {
@@ -300,8 +296,7 @@ fn controls() -> Result<Vec<(&'static str, u8)>> {
         Err(Error::Program { .. }) => return Ok(Vec::new()),
         Err(error) => return Err(error),
     };
-    // A line for each control, then lines of what is known of it:
-    // Simple mixer control 'PCM',0
+    // A line for each control, then lines of what is known of it: Simple mixer control 'PCM',0
     //   Mono: Playback 256 [100%]
     let parts: Vec<&str> = text.split("Simple mixer control '").skip(1).collect();
     let set_to = |control: &'static str| {

@@ -179,8 +179,7 @@ fn starts_motor(path: &Path, text: &str) -> bool {
     path.ends_with("command") && text.trim_start().starts_with("run")
 }
 
-/// Reads all there is. More than fits cannot be an attribute's text: rather
-/// than cut it, say so.
+/// Reads all there is. More than fits cannot be an attribute's text: rather than cut it, say so.
 pub(super) fn read_node<'a>(
     node: &dyn AttributeFile,
     path: &Path,

@@ -1,8 +1,7 @@
 //! A list that only grows, and that is read without a lock.
 //!
-//! A device has a handful of attributes and constants that are met one after
-//! the other and stay for as long as it is plugged in. Finding one of a few is
-//! cheaper than taking a lock.
+//! A device has a handful of attributes and constants that are met one after the other and stay for
+//! as long as it is plugged in. Finding one of a few is cheaper than taking a lock.
 use std::sync::OnceLock;
 
 /// A list that only grows.
@@ -28,9 +27,8 @@ impl<T> List<T> {
         None
     }
 
-    /// The first element for which `is` holds; if there is none, the one
-    /// that `make` makes, at the end. Of several threads that come for the
-    /// same element at once, one makes it.
+    /// The first element for which `is` holds; if there is none, the one that `make` makes, at the
+    /// end. Of several threads that come for the same element at once, one makes it.
     pub(crate) fn find_or_push(&self, is: impl Fn(&T) -> bool, make: impl Fn() -> T) -> &T {
         let mut list = self;
         loop {

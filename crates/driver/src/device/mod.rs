@@ -178,9 +178,8 @@ impl Device {
         &self.entry
     }
 
-    /// Whether it is what an entry of its class directory stands for. A file
-    /// system may give a new directory the inode number of one that was
-    /// removed; the kernel's devices have each its own.
+    /// Whether it is what an entry of its class directory stands for. A file system may give a new
+    /// directory the inode number of one that was removed; the kernel's devices have each its own.
     pub(crate) fn is_at(&self, entry: &Entry) -> bool {
         self.entry == *entry && self.check_present().is_ok()
     }
@@ -190,9 +189,8 @@ impl Device {
         self.first_seen
     }
 
-    /// Fails as a read of an unplugged device does, where the reads themselves
-    /// do not notice (see [`AttributeFile::check_present`]). The result is trusted
-    /// for [`PRESENT_FOR_US`].
+    /// Fails as a read of an unplugged device does, where the reads themselves do not notice (see
+    /// [`AttributeFile::check_present`]). The result is trusted for [`PRESENT_FOR_US`].
     pub fn check_present(&self) -> Result<()> {
         if self.presence.is_plain() { self.check_present_at(self.tree.now()) } else { Ok(()) }
     }
@@ -273,9 +271,8 @@ impl Device {
         }
     }
 
-    /// The right to change the sensor's mode, if no other thread has it. A
-    /// thread that has it gets it again: a signal that it handles while it
-    /// waits may ask for the same sensor.
+    /// The right to change the sensor's mode, if no other thread has it. A thread that has it gets
+    /// it again: a signal that it handles while it waits may ask for the same sensor.
     pub(crate) fn try_use(&self) -> Option<Use<'_>> {
         let me = thread::current().id();
         let mut user = locked(&self.user);
@@ -313,14 +310,12 @@ impl Device {
         integer(text).ok_or_else(|| attribute.malformed(text, "an integer"))
     }
 
-    /// An integer that cannot change while the device is plugged in: read
-    /// once.
+    /// An integer that cannot change while the device is plugged in: read once.
     pub fn constant(&self, attribute: &'static str) -> Result<i64> {
         self.constant_in(attribute, "")
     }
 
-    /// An integer that depends on nothing but the sensor's mode: read once for
-    /// each.
+    /// An integer that depends on nothing but the sensor's mode: read once for each.
     pub fn constant_in(&self, attribute: &'static str, mode: &str) -> Result<i64> {
         if let Some(value) = self.known_in(attribute, mode) {
             return Ok(value);
@@ -402,8 +397,7 @@ impl Device {
     /// The text of an attribute.
     ///
     /// # Errors
-    /// [`Error::Malformed`] where it is not UTF-8 or is longer than a page,
-    /// else the kernel's.
+    /// [`Error::Malformed`] where it is not UTF-8 or is longer than a page, else the kernel's.
     pub fn text(&self, attribute: &str) -> Result<String> {
         let attribute = self.attribute(attribute);
         let mut line = [0; LINE];
@@ -439,8 +433,7 @@ impl Device {
         Ok(())
     }
 
-    /// Opens an attribute for writing, so that a later write cannot fail for
-    /// want of permission.
+    /// Opens an attribute for writing, so that a later write cannot fail for want of permission.
     pub(crate) fn prepare(&self, attribute: &str) -> Result<()> {
         self.attribute(attribute).writer(self.tree()).map(drop)
     }

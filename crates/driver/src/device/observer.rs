@@ -11,13 +11,11 @@ pub(crate) trait MotionObserver: Send + Sync {
     /// A motor was started.
     fn motor_started(&self);
 
-    /// Does a write that changes the count of the motor at `port` without
-    /// turning the motor.
+    /// Does a write that changes the count of the motor at `port` without turning the motor.
     fn without_counting(&self, port: &str, write: &mut dyn FnMut() -> Result<()>) -> Result<()>;
 }
 
-/// The observer of a tree's motors, once there is one. All devices of a registry
-/// share it.
+/// The observer of a tree's motors, once there is one. All devices of a registry share it.
 #[derive(Default)]
 pub(crate) struct Observer(OnceLock<Weak<dyn MotionObserver>>);
 

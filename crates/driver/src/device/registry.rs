@@ -1,10 +1,9 @@
 //! The devices that are connected, by class and port.
 //!
-//! The kernel lists each class in a directory of its own, one entry a device,
-//! under numbers that follow the order of plugging in. Programs name ports. The
-//! listing is cached. It is renewed when it is older than [`LISTING_AGE`], when a
-//! port is asked for that it does not have, and when a device answers as an
-//! unplugged one does. Devices that are still there keep their descriptors.
+//! The kernel lists each class in a directory of its own, one entry a device, under numbers that
+//! follow the order of plugging in. Programs name ports. The listing is cached. It is renewed when
+//! it is older than [`LISTING_AGE`], when a port is asked for that it does not have, and when a
+//! device answers as an unplugged one does. Devices that are still there keep their descriptors.
 use crate::class::{Class, Detected};
 use crate::device::{Device, Gears, MotionObserver, Observer, identity};
 use crate::error::{Access, Error, Result};
@@ -145,8 +144,7 @@ impl Registry {
             }
         }
         match self.list(class, &mut listing) {
-            // If the class cannot be listed, trust the last listing: a robot
-            // can still be stopped.
+            // If the class cannot be listed, trust the last listing: a robot can still be stopped.
             Err(error) if is_exhaustion(&error) && listing.by_port.get(port).is_some() => {}
             listed => listed?,
         }
@@ -178,8 +176,7 @@ impl Registry {
         })
     }
 
-    /// Reads from a device, or from the one that has replaced it; `None` if the port
-    /// is empty now.
+    /// Reads from a device, or from the one that has replaced it; `None` if the port is empty now.
     ///
     /// # Errors
     /// As `read`, or as [`all`](Self::all).
@@ -197,9 +194,8 @@ impl Registry {
         }
     }
 
-    /// Calls `act`, and once more with a new listing if it met a device that answers
-    /// as an unplugged one does: a device that was plugged in again has another
-    /// number.
+    /// Calls `act`, and once more with a new listing if it met a device that answers as an
+    /// unplugged one does: a device that was plugged in again has another number.
     ///
     /// # Errors
     /// As `act`.

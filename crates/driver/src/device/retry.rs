@@ -1,9 +1,8 @@
 //! Trying again while a device is getting ready.
 //!
-//! The kernel makes a device's files for root alone; udev opens them to the
-//! users of the robot, asynchronously, up to a second later
-//! (docs/ev3dev-sysfs.md, 0.1). Until then an open for writing answers EACCES, as
-//! it always does for a file that can only be read. A file that any device of
+//! The kernel makes a device's files for root alone; udev opens them to the users of the robot,
+//! asynchronously, up to a second later (docs/ev3dev-sysfs.md, 0.1). Until then an open for writing
+//! answers EACCES, as it always does for a file that can only be read. A file that any device of
 //! the class lets be written distinguishes the two.
 use crate::class::Class;
 use crate::device::Device;
@@ -24,9 +23,8 @@ const RETRY_EVERY: Duration = Duration::from_millis(20);
 /// files one after the other.
 const LAST_TRIES: u32 = 1;
 
-/// Calls `attempt` every 20 ms until it answers something. `None` means "not
-/// yet": the attempt decides which errors and states are worth another try, and
-/// for how long.
+/// Calls `attempt` every 20 ms until it answers something. `None` means "not yet": the attempt
+/// decides which errors and states are worth another try, and for how long.
 ///
 /// # Errors
 /// As `attempt`; [`Error::Interrupted`].

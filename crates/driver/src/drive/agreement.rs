@@ -1,11 +1,10 @@
 //! Whether the gyro follows the wheels.
 //!
-//! A gyro that is mounted upside down counts the other way, and so does one
-//! whose robot has its left and right motor swapped. Steering by it turns the
-//! robot farther from its course with each correction. A gyro that shows no turn
-//! is broken, or the wheels spin on the spot. Both show within a short turn, and
-//! wheels that merely slip, or an axle that was measured badly, do not look like
-//! either.
+//! A gyro that is mounted upside down counts the other way, and so does one whose robot has its
+//! left and right motor swapped. Steering by it turns the robot farther from its course with each
+//! correction. A gyro that shows no turn is broken, or the wheels spin on the spot. Both show
+//! within a short turn, and wheels that merely slip, or an axle that was measured badly, do not
+//! look like either.
 use crate::drive::motion::{PERIOD, seconds};
 use std::time::Duration;
 
@@ -20,8 +19,7 @@ const SHORT_TURN: f64 = 20.0;
 /// See [`SHORT_TURN`]; less may be due to lag.
 const OPPOSITE: f64 = 10.0;
 
-/// A turn by the wheels, in degrees, of which the gyro must show a share of
-/// [`FOLLOWS`].
+/// A turn by the wheels, in degrees, of which the gyro must show a share of [`FOLLOWS`].
 const LONG_TURN: f64 = 45.0;
 
 /// See [`LONG_TURN`].
@@ -79,8 +77,7 @@ impl Agreement {
         }
     }
 
-    /// Whether the gyro has contradicted the wheels since the last
-    /// [`default`](Self::default).
+    /// Whether the gyro has contradicted the wheels since the last [`default`](Self::default).
     pub(super) fn is_broken(&self) -> bool {
         self.is_broken
     }

@@ -202,8 +202,7 @@ impl Inner {
         Error::Unplugged { class: Class::TachoMotor, port }
     }
 
-    /// The time to the next call; `None` if there is nothing to do until a motor
-    /// is started.
+    /// The time to the next call; `None` if there is nothing to do until a motor is started.
     pub(super) fn next_call(&self) -> Option<Duration> {
         if self.active.is_some() {
             return Some(PERIOD);

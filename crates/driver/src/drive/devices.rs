@@ -110,8 +110,7 @@ pub(super) fn counts(motors: &[Arc<Device>]) -> Result<[i64; 2]> {
     Ok(counts)
 }
 
-/// The gyro's angle in degrees; `None` while the gyro does not measure it, or if it is
-/// full.
+/// The gyro's angle in degrees; `None` while the gyro does not measure it, or if it is full.
 pub(super) fn angle(gyro: &Arc<Device>) -> Result<Option<f64>> {
     gyro.check_present()?;
     let Some(mode) = gyro::angle_mode(gyro)? else {

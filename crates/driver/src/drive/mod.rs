@@ -1,11 +1,10 @@
 //! A robot on two wheels that knows where it is and is kept on its course.
 //!
-//! One place does both, at a fixed period of 20 ms while the wheels turn or a
-//! motion is under way: it reads wheels and gyro, updates the estimate
-//! ([`odometry`]), and commands the motors ([`steering`]). The tree calls it
-//! ([`Sysfs::every`](crate::sysfs::Sysfs::every)); over real files a thread does,
-//! which ends when the robot has come to rest. A thread that
-//! asks for the pose meanwhile does that step itself, and gets the pose of now.
+//! One place does both, at a fixed period of 20 ms while the wheels turn or a motion is under way:
+//! it reads wheels and gyro, updates the estimate ([`odometry`]), and commands the motors
+//! ([`steering`]). The tree calls it ([`Sysfs::every`](crate::sysfs::Sysfs::every)); over real
+//! files a thread does, which ends when the robot has come to rest. A thread that asks for the pose
+//! meanwhile does that step itself, and gets the pose of now.
 //!
 //! The kernel takes a new `speed_sp` only with the next command, so each change
 //! is both; `run-forever` over `run-forever` keeps the regulator's memory
@@ -90,8 +89,7 @@ impl Drive {
         drive
     }
 
-    /// Changes the robot, and keeps the pose. Nothing happens if it is the same
-    /// robot.
+    /// Changes the robot, and keeps the pose. Nothing happens if it is the same robot.
     pub fn set_robot(&self, robot: &Robot) {
         let mut inner = locked(&self.inner);
         if inner.robot == *robot {
@@ -168,9 +166,8 @@ impl Drive {
         })
     }
 
-    /// Brings the estimate up to date; `None` where a motor is absent. A caller
-    /// that polls continuously starves the periodic callback, so this runs any
-    /// control period that was missed.
+    /// Brings the estimate up to date; `None` where a motor is absent. A caller that polls
+    /// continuously starves the periodic callback, so this runs any control period that was missed.
     fn look(&self) -> Result<Option<MutexGuard<'_, Inner>>> {
         let mut inner = locked(&self.inner);
         let is_there = self.registry.retry_after_relisting(|| inner.integrate(&self.registry))?;
@@ -268,8 +265,7 @@ impl Drive {
         self.until(Some(outcome), timeout, true)
     }
 
-    /// Waits for the end of the motion under way or last begun, and stops
-    /// nothing.
+    /// Waits for the end of the motion under way or last begun, and stops nothing.
     pub fn until_last_ended(self: &Arc<Self>, timeout: Option<Duration>) -> Slices<UntilEnded> {
         let last = locked(&self.inner).last.clone();
         self.until(last, timeout, false)

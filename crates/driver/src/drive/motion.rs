@@ -117,8 +117,7 @@ impl Outcome {
     }
 }
 
-/// A time in seconds. The standard library's divides, which the brick's processor does
-/// in software.
+/// A time in seconds. The standard library's divides, which the brick's processor does in software.
 pub(super) fn seconds(time: Duration) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "no robot drives for so long")]
     let whole = time.as_secs() as f64;
@@ -138,8 +137,7 @@ fn least(speed: f64) -> i64 {
 }
 
 impl ActiveMotion {
-    /// Commands the speeds of the wheels, in cm/s. `passed` is the time since the
-    /// last sample.
+    /// Commands the speeds of the wheels, in cm/s. `passed` is the time since the last sample.
     pub(super) fn roll(
         &mut self,
         devices: &DriveDevices,

@@ -1,21 +1,18 @@
 //! The pose of a robot on two wheels, from its encoders and its gyro.
 //!
-//! Pure arithmetic: no devices, no clock. Between two samples both wheels are
-//! assumed to turn evenly, so that the robot moves along an arc, and that arc is
-//! integrated exactly. An extended Kalman filter fuses this with the gyro. Its
-//! state is the pose, the relative errors of the given wheel diameters and axle
-//! length, and the gyro's zero and drift. A late gyro reading corrects the
+//! Pure arithmetic: no devices, no clock. Between two samples both wheels are assumed to turn
+//! evenly, so that the robot moves along an arc, and that arc is integrated exactly. An extended
+//! Kalman filter fuses this with the gyro. Its state is the pose, the relative errors of the given
+//! wheel diameters and axle length, and the gyro's zero and drift. A late gyro reading corrects the
 //! heading and, through the covariance, the position too.
 //!
-//! The errors of wheels and axle persist: a wheel that slips or a wide tire makes
-//! each turn wrong by the same share. So over long turns the gyro is right, and
-//! the difference is not drift.
+//! The errors of wheels and axle persist: a wheel that slips or a wide tire makes each turn wrong
+//! by the same share. So over long turns the gyro is right, and the difference is not drift.
 //!
-//! A gyro reports whole degrees. A reading is therefore not treated as a value
-//! with a Gaussian error, but as an interval that contains the true value plus a
-//! Gaussian error: the measurement is the mean and variance of the predicted
-//! distribution truncated to that interval. Consecutive readings at rest share
-//! their error, so only one every 100 ms counts.
+//! A gyro reports whole degrees. A reading is therefore not treated as a value with a Gaussian
+//! error, but as an interval that contains the true value plus a Gaussian error: the measurement is
+//! the mean and variance of the predicted distribution truncated to that interval. Consecutive
+//! readings at rest share their error, so only one every 100 ms counts.
 use ev3_motion::{Pose, sinc};
 
 /// Half of a gyro's resolution, in radians.
@@ -389,8 +386,7 @@ impl Estimate {
         }
     }
 
-    /// Adds an error along a direction, and one of the heading, half of which shifts
-    /// the place.
+    /// Adds an error along a direction, and one of the heading, half of which shifts the place.
     fn inflate(&mut self, direction: [f32; 2], place: [f32; 2], along: f32, turning: f32) {
         let p = &mut self.covariance;
         let half = [place[0] * 0.5, place[1] * 0.5];
@@ -438,9 +434,8 @@ impl Estimate {
         std::array::from_fn(|i| self.covariance[one][i] + self.covariance[other][i])
     }
 
-    /// Updates the state by a measurement whose covariance with the states is
-    /// `row`: each state shifts by `shift`, and the covariance shrinks by
-    /// `certainty`, for each unit of `row`.
+    /// Updates the state by a measurement whose covariance with the states is `row`: each state
+    /// shifts by `shift`, and the covariance shrinks by `certainty`, for each unit of `row`.
     #[expect(clippy::needless_range_loop, reason = "the index is that of two states")]
     fn update(&mut self, row: [f32; STATES], shift: f32, certainty: f32) {
         for i in 0..STATES {
@@ -459,8 +454,7 @@ impl Estimate {
         self.has_zero = false;
     }
 
-    /// The gyro contradicts the wheels: forgets all that it has taught, but for the
-    /// pose.
+    /// The gyro contradicts the wheels: forgets all that it has taught, but for the pose.
     pub fn forget_gyro(&mut self) {
         self.gyro_lost();
         self.forget_wheels();

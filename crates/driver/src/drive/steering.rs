@@ -1,5 +1,4 @@
-//! Steering along a motion: from where the robot is to how fast it should go
-//! and turn.
+//! Steering along a motion: from where the robot is to how fast it should go and turn.
 //!
 //! Pure arithmetic, called once each period. The controlled quantities are the
 //! distance and the heading of the middle of the axle: a wheel that lags turns
@@ -53,9 +52,8 @@ const ALIGNED: f64 = 0.3;
 /// How often the end of a turn is corrected.
 const CORRECTIONS: u32 = 3;
 
-/// How often a turn may swing past its heading. Then the wheels go to positions,
-/// however far away: a robot that its motors cannot slow down in time would swing for
-/// ever.
+/// How often a turn may swing past its heading. Then the wheels go to positions, however far away:
+/// a robot that its motors cannot slow down in time would swing for ever.
 const SWINGS: u32 = 6;
 
 /// The end of a turn may stay this far off, in degrees.
@@ -286,8 +284,7 @@ impl Steering {
         }
     }
 
-    /// How far the axle is ahead of the robot's reference point, in the direction
-    /// of travel.
+    /// How far the axle is ahead of the robot's reference point, in the direction of travel.
     fn lead(&self) -> f64 {
         if self.is_backwards { -self.wheels.offset } else { self.wheels.offset }
     }
@@ -492,8 +489,7 @@ impl Steering {
         let acceleration = self.limits.acceleration;
         self.speed = approach(self.speed, speed, acceleration * seconds);
         self.rate = approach(self.rate, rate, 2.0 * acceleration / half_axle * seconds);
-        // The heading that the robot should have by now; not farther away than
-        // can be made up for.
+        // The heading that the robot should have by now; not farther away than can be made up for.
         let held = held.unwrap_or(pose.heading) + (self.rate * seconds).to_degrees();
         let held = pose.heading + (held - pose.heading).clamp(-15.0, 15.0);
         self.task = Task::Cruise { speed, rate, heading: Some(held) };

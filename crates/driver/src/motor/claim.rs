@@ -1,10 +1,9 @@
 //! The claim of a coordinated motion to its motors.
 //!
-//! A drive commands its motors again and again. Another thread may
-//! stop one of them, or give it another command, at any time. From then on the
-//! motor is no longer claimed, and the motion must leave it alone. Each write
-//! here is made under the lock of the motor's run, so that a motion cannot
-//! restart a motor that was just stopped.
+//! A drive commands its motors again and again. Another thread may stop one of them, or give it
+//! another command, at any time. From then on the motor is no longer claimed, and the motion must
+//! leave it alone. Each write here is made under the lock of the motor's run, so that a motion
+//! cannot restart a motor that was just stopped.
 use crate::device::Device;
 use crate::device::motion::{End, MotorRun};
 use crate::error::Result;
@@ -29,8 +28,7 @@ impl Claim {
         *motor.run() = Some(self.run(motor, End::Never));
     }
 
-    /// Whether the motor is still claimed: nobody else has given it a command
-    /// since.
+    /// Whether the motor is still claimed: nobody else has given it a command since.
     pub(crate) fn holds(self, motor: &Device) -> bool {
         self.is_of(*motor.run())
     }

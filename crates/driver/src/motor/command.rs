@@ -1,8 +1,7 @@
 //! Commands to one motor, and the record of the last one.
 //!
-//! A command that starts a motor is recorded with the device: a wait must know
-//! where the motor is to end, and at the end of the program every motor that
-//! runs is stopped.
+//! A command that starts a motor is recorded with the device: a wait must know where the motor is
+//! to end, and at the end of the program every motor that runs is stopped.
 use crate::device::Device;
 use crate::device::motion::{End, MotorRun};
 use crate::error::{Error, Result};
@@ -57,8 +56,7 @@ fn start_as(motor: &Device, word: &str, end: Option<End>) -> Result<()> {
     let mut ramped = Ramped::before(motor, end)?;
     let word = ramped.as_ref().map_or(word, |ramped| ramped.word(word));
     let run = end.map(|end| run(motor, word, end));
-    // Write the command under the lock: a drive must not restart a motor that was
-    // just stopped.
+    // Write the command under the lock: a drive must not restart a motor that was just stopped.
     let mut present = motor.run();
     if run.is_some() {
         // Record the run before writing the command. If we are killed in between,
@@ -92,8 +90,7 @@ fn run(motor: &Device, word: &str, end: End) -> MotorRun {
     MotorRun { started: motor.tree().now(), is_relative, claim: None, end }
 }
 
-/// Whether the last command to a motor makes it run until it is stopped, or for a
-/// time.
+/// Whether the last command to a motor makes it run until it is stopped, or for a time.
 pub(crate) fn runs_on(motor: &Device) -> bool {
     let end = motor.run().map(|run| run.end);
     matches!(end, Some(End::Never | End::Time(_)))

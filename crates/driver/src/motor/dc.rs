@@ -4,10 +4,9 @@
 //! nothing back. The kernel does not detect one: an output port has to be put
 //! into the mode `dc-motor` ([`lego_port`](crate::brick::port)).
 //!
-//! Each change of the duty is a ramp with steps of 100 ms, even one without
-//! length, and a change that comes while a step is due waits for it
-//! (`dc_motor_class.c`). So a command within 100 ms of the last command or change
-//! takes effect up to 100 ms late.
+//! Each change of the duty is a ramp with steps of 100 ms, even one without length, and a change
+//! that comes while a step is due waits for it (`dc_motor_class.c`). So a command within 100 ms of
+//! the last command or change takes effect up to 100 ms late.
 use crate::class::Class;
 use crate::device::motion::End;
 use crate::device::registry::Registry;
@@ -43,9 +42,8 @@ pub fn run_forever(
     Ok(run.is_some())
 }
 
-/// Runs a motor at a duty for a time, and then stops it. `None` if it is absent,
-/// the percentage beyond 100 or the time beyond a minute; then nothing has
-/// moved. Otherwise as [`motor::begin`].
+/// Runs a motor at a duty for a time, and then stops it. `None` if it is absent, the percentage
+/// beyond 100 or the time beyond a minute; then nothing has moved. Otherwise as [`motor::begin`].
 pub fn begin_timed(
     registry: &Arc<Registry>,
     port: &str,

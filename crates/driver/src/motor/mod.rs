@@ -1,12 +1,10 @@
 //! Motors: set-points, commands, moves of several motors at once.
 //!
-//! A command to a motor takes two steps. Set-points (`speed_sp`,
-//! `position_sp`, `stop_action`, `ramp_up_sp` ...) are stored; the next
-//! `command` copies them all and starts. Nothing that is written to a
-//! set-point changes a motion under way (kernel, `tacho_motor_class.c`). So
-//! each function here writes the set-points that its command depends on first.
-//! Several motors get all their set-points first and then their commands one
-//! right after the other.
+//! A command to a motor takes two steps. Set-points (`speed_sp`, `position_sp`, `stop_action`,
+//! `ramp_up_sp` ...) are stored; the next `command` copies them all and starts. Nothing that is
+//! written to a set-point changes a motion under way (kernel, `tacho_motor_class.c`). So each
+//! function here writes the set-points that its command depends on first. Several motors get all
+//! their set-points first and then their commands one right after the other.
 pub(crate) mod claim;
 pub(crate) mod command;
 pub mod dc;
@@ -60,8 +58,7 @@ pub struct MoveOptions {
 }
 
 impl Default for MoveOptions {
-    /// To the very position, and wait for it. A motor that coasts or brakes
-    /// overshoots its target.
+    /// To the very position, and wait for it. A motor that coasts or brakes overshoots its target.
     fn default() -> Self {
         Self {
             stop_action: StopAction::Hold,
@@ -119,9 +116,8 @@ pub fn stop_commanded(registry: &Registry, commands: &Range<u32>) -> Result<()> 
     result
 }
 
-/// Stops all motors that are connected, also those of other programs; servos keep their
-/// positions. One whose files udev has not opened yet is waited for, once all others
-/// are stopped.
+/// Stops all motors that are connected, also those of other programs; servos keep their positions.
+/// One whose files udev has not opened yet is waited for, once all others are stopped.
 ///
 /// # Errors
 /// The kernel's. If the motors cannot be listed, those of the last listing are stopped.
@@ -220,9 +216,8 @@ pub fn run_direct(
     Ok(retry::with(registry, class, port, interrupted, run)?.is_some())
 }
 
-/// Turns motors, all at once. `None` if one is absent, or the move
-/// is impossible: a speed of 0 or beyond the motor's, an angle or a time beyond
-/// what the kernel counts; then nothing has moved.
+/// Turns motors, all at once. `None` if one is absent, or the move is impossible: a speed of 0 or
+/// beyond the motor's, an angle or a time beyond what the kernel counts; then nothing has moved.
 ///
 /// Without [`MoveOptions::wait`] the answer is [`Reason::Reached`] once the
 /// motors are started. A move that does not reach its end is stopped.
@@ -361,16 +356,14 @@ fn start_moves(
     Ok(Some(motors))
 }
 
-/// Makes the first relative move count from where the motor is: the last command
-/// of an earlier program is unknown, and may be another relative move. See
-/// `plan_by`.
+/// Makes the first relative move count from where the motor is: the last command of an earlier
+/// program is unknown, and may be another relative move. See `plan_by`.
 fn count_from_here(motor: &Device) -> Result<()> {
     if motor.run().is_none() { motor.write("command", "stop") } else { Ok(()) }
 }
 
-/// The ramps that the motors had before a move with its own. The command
-/// copies them, so that they are put back as soon as the motors run, or when
-/// they could not start.
+/// The ramps that the motors had before a move with its own. The command copies them, so that they
+/// are put back as soon as the motors run, or when they could not start.
 #[derive(Default)]
 pub(crate) struct Ramps(Vec<(Arc<Device>, &'static str, i64)>);
 
@@ -396,8 +389,7 @@ impl Drop for Ramps {
     }
 }
 
-/// The tacho motors at these ports, each of them another, or `None` if one is
-/// absent.
+/// The tacho motors at these ports, each of them another, or `None` if one is absent.
 fn find_each<'a>(
     registry: &Registry,
     ports: impl IntoIterator<Item = &'a str>,

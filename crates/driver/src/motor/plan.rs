@@ -25,8 +25,7 @@ pub struct Move<'a> {
 pub enum Extent {
     /// By an angle; its sign and that of the speed make the direction.
     By(f64),
-    /// To an angle, counted from where the position is 0, whatever the sign of
-    /// the speed.
+    /// To an angle, counted from where the position is 0, whatever the sign of the speed.
     To(f64),
     /// For a time.
     For(Duration),
@@ -148,8 +147,7 @@ fn counts(motor: &Device, angle: f64) -> Result<Option<i64>> {
     Ok((counts.abs() <= f64::from(i32::MAX)).then_some(counts as i64))
 }
 
-/// Tacho counts for a degree of what the motor drives, or a millimeter of a linear
-/// actuator.
+/// Tacho counts for a degree of what the motor drives, or a millimeter of a linear actuator.
 #[expect(clippy::cast_precision_loss, reason = "counts are few")]
 pub fn counts_per_unit(motor: &Device) -> Result<f64> {
     let counts = if motor.is_linear() {

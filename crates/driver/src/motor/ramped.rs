@@ -50,8 +50,7 @@ impl<'a> Ramped<'a> {
         Ok(is_treacherous.then_some(Ramped { motor, target, changed: Vec::new() }))
     }
 
-    /// The command to write. A relative one would count from where the motor has got
-    /// by now.
+    /// The command to write. A relative one would count from where the motor has got by now.
     pub(super) fn word<'w>(&self, word: &'w str) -> &'w str {
         if self.target.is_some() { "run-to-abs-pos" } else { word }
     }

@@ -1,10 +1,9 @@
 //! Waiting for motors.
 //!
-//! The kernel announces a change of `state` every 50 ms, on the EV3 only, and
-//! a state that comes and goes between two announcements never. Other boards
-//! announce nothing, and plain files cannot. So a wait here sleeps in poll(2),
-//! but never for longer than [`SLICE`], then samples again; toward the end that
-//! position and speed predict it samples every [`SHORT_SLICE`].
+//! The kernel announces a change of `state` every 50 ms, on the EV3 only, and a state that comes
+//! and goes between two announcements never. Other boards announce nothing, and plain files cannot.
+//! So a wait here sleeps in poll(2), but never for longer than [`SLICE`], then samples again;
+//! toward the end that position and speed predict it samples every [`SHORT_SLICE`].
 use crate::device::Device;
 use crate::device::motion::{End, MotorRun};
 use crate::device::registry::Registry;
@@ -18,8 +17,7 @@ use std::time::Duration;
 /// The time between two samples when the end is near.
 const SHORT_SLICE: Duration = Duration::from_millis(2);
 
-/// How long after a command `running` may still be missing: controllers on
-/// I2C and SPI report late.
+/// How long after a command `running` may still be missing: controllers on I2C and SPI report late.
 const GRACE: Duration = Duration::from_millis(100);
 
 /// How long `stalled` must last to be believed: some boards flag each start.
@@ -36,8 +34,7 @@ const BEHIND: u64 = 8;
 /// `sqrt(2 * 8 * 60 / 1020)` = 0.97 s.
 const RAMPS_FOR: Duration = Duration::from_secs(1);
 
-/// How long a position may stay the same under way to one where the board
-/// never flags a stall.
+/// How long a position may stay the same under way to one where the board never flags a stall.
 const STUCK_FOR: Duration = Duration::from_secs(2);
 
 /// The same for a linear actuator, flagged or not: at 24 counts a second at most
@@ -348,8 +345,7 @@ impl Progress {
         if !self.is_confirmed()? {
             return Ok(Sample::Runs(SHORT_SLICE));
         }
-        // Not even `holding` is believed at once: it may be that of the move
-        // before.
+        // Not even `holding` is believed at once: it may be that of the move before.
         if !self.is_over(now)? {
             return Ok(Sample::Runs(self.slice(now)?));
         }
@@ -396,8 +392,7 @@ impl Progress {
         })
     }
 
-    /// Whether a timed run is to be ended: its time is up, and the motor got no other
-    /// command.
+    /// Whether a timed run is to be ended: its time is up, and the motor got no other command.
     fn is_overdue(&self, now: Duration) -> bool {
         let end = self.run.and_then(|run| match run.end {
             End::Time(time) => Some(run.started.saturating_add(time)),

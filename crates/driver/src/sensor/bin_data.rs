@@ -1,10 +1,9 @@
 //! Several values of a sensor in one read.
 //!
-//! `bin_data` holds what the sensor sent, 32 bytes in the format that
-//! `bin_data_format` names. The files `value<N>` show the same numbers, or
-//! numbers that the kernel scales, to a range that no file shows. So this reads
-//! only the modes that the drivers' tables do not scale, and only if they have
-//! more than one value.
+//! `bin_data` holds what the sensor sent, 32 bytes in the format that `bin_data_format` names. The
+//! files `value<N>` show the same numbers, or numbers that the kernel scales, to a range that no
+//! file shows. So this reads only the modes that the drivers' tables do not scale, and only if they
+//! have more than one value.
 use crate::device::Device;
 use crate::error::Result;
 use ev3_os::Errno;
@@ -68,8 +67,7 @@ impl Format {
         }
     }
 
-    /// Value `index`, as its file `value<N>` has it. `None` where it does not
-    /// fit into the data.
+    /// Value `index`, as its file `value<N>` has it. `None` where it does not fit into the data.
     fn value(self, data: &[u8], index: usize, decimals: i64) -> Option<i64> {
         let (start, width) = (index.checked_mul(self.width())?, self.width());
         let bytes = data.get(start..start.checked_add(width)?)?;

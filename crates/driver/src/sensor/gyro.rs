@@ -21,14 +21,12 @@ pub(super) fn same_angle(mode: &str) -> Option<&'static str> {
     (mode == ANGLE).then_some(ANGLE_AND_RATE)
 }
 
-/// The mode to restart a sensor in: the present one, if its first value is that of
-/// `mode`.
+/// The mode to restart a sensor in: the present one, if its first value is that of `mode`.
 pub(super) fn angle_mode_or<'a>(sensor: &Device, mode: &'a str) -> &'a str {
     if mode == ANGLE && is_in(sensor, ANGLE_AND_RATE) { ANGLE_AND_RATE } else { mode }
 }
 
-/// The mode in which a gyro measures its angle now, if it is in one and its values
-/// have settled.
+/// The mode in which a gyro measures its angle now, if it is in one and its values have settled.
 pub(crate) fn angle_mode(gyro: &Device) -> Result<Option<&'static str>> {
     if !gyro.settled_at().is_zero() {
         return Ok(None);
@@ -60,8 +58,7 @@ pub(super) fn restart(sensor: &Device) {
     *sensor.turned() = Turned::default();
 }
 
-/// A value as the program is to see it. (In the mode of the angle alone, the offset is
-/// 0.)
+/// A value as the program is to see it. (In the mode of the angle alone, the offset is 0.)
 pub(super) fn shown(sensor: &Device, mode: Option<&str>, index: usize, raw: i64) -> i64 {
     let is_angle = index == 0 && matches!(mode, Some(ANGLE | ANGLE_AND_RATE));
     if is_angle { raw.saturating_add(sensor.turned().offset) } else { raw }

@@ -1,10 +1,9 @@
 //! Sensors: a value in a mode.
 //!
-//! A sensor measures one thing at a time, named by its `mode`. Writing `mode`
-//! restarts the measurement, even where nothing changes (and resets a gyro's
-//! angle), so it is written only when it differs. After a real change the first
-//! values are still those of the old mode: the first read waits until they have
-//! settled.
+//! A sensor measures one thing at a time, named by its `mode`. Writing `mode` restarts the
+//! measurement, even where nothing changes (and resets a gyro's angle), so it is written only when
+//! it differs. After a real change the first values are still those of the old mode: the first read
+//! waits until they have settled.
 mod bin_data;
 pub(crate) mod gyro;
 pub mod registers;
@@ -27,9 +26,8 @@ const SETTLING: Duration = Duration::from_millis(10);
 /// The same for the infrared sensor.
 const SETTLING_INFRARED: Duration = Duration::from_millis(1100);
 
-/// The same for a sensor on the I2C bus: the kernel reads it at once, which may
-/// take some 25 ms at 9600 bits a second, and some sensors need as long again
-/// to measure something else.
+/// The same for a sensor on the I2C bus: the kernel reads it at once, which may take some 25 ms at
+/// 9600 bits a second, and some sensors need as long again to measure something else.
 const SETTLING_ON_BUS: Duration = Duration::from_millis(50);
 
 /// How long a sensor may take to answer again after losing contact: it is
@@ -78,9 +76,8 @@ pub fn read_all<const N: usize>(
     })
 }
 
-/// Reads the first `count` values of a sensor in a mode, or all that the mode has,
-/// at most eight, as [`read`] does. They are of one moment where the sensor allows
-/// it, see the module `bin_data`.
+/// Reads the first `count` values of a sensor in a mode, or all that the mode has, at most eight,
+/// as [`read`] does. They are of one moment where the sensor allows it, see the module `bin_data`.
 pub fn read_several(
     registry: &Registry,
     sensor: &Arc<Device>,
@@ -146,9 +143,8 @@ pub(crate) fn measure_angle(
     in_mode(registry, sensor, wanted, interrupted, |_| Ok(()))
 }
 
-/// Restarts a sensor in a mode, be it in that mode already or not; in the present
-/// one, if that shows the same. A gyro's angle is 0 afterwards. `None` where the
-/// sensor is gone.
+/// Restarts a sensor in a mode, be it in that mode already or not; in the present one, if that
+/// shows the same. A gyro's angle is 0 afterwards. `None` where the sensor is gone.
 pub fn restart(
     registry: &Registry,
     sensor: &Arc<Device>,
@@ -167,8 +163,7 @@ pub fn scale(sensor: &Device, raw: i64) -> Result<Value> {
     Ok(Value::scaled(raw, sensor.number("decimals")?))
 }
 
-/// Reads value `index` once, as it is now; the mode is that which the sensor is
-/// known to be in.
+/// Reads value `index` once, as it is now; the mode is that which the sensor is known to be in.
 pub(crate) fn read_value(sensor: &Device, mode: Option<&str>, index: usize) -> Result<Value> {
     let raw = gyro::shown(sensor, mode, index, raw_value(sensor, index)?);
     let decimals = match mode {
@@ -350,8 +345,7 @@ struct Connecting {
 }
 
 impl Connecting {
-    /// Whether an error at this time is one that passes while a sensor gets into
-    /// contact.
+    /// Whether an error at this time is one that passes while a sensor gets into contact.
     fn may_last(
         &mut self,
         registry: &Registry,
@@ -380,8 +374,7 @@ fn present(registry: &Registry, sensor: &Device) -> Result<Option<Arc<Device>>> 
     Ok(present.filter(|present| present.driver() == sensor.driver()))
 }
 
-/// The sensor at a port, if it is one of these types; of any type where none
-/// is named.
+/// The sensor at a port, if it is one of these types; of any type where none is named.
 pub fn at(registry: &Registry, port: &str, types: &[impl AsRef<str>]) -> Result<Vec<Arc<Device>>> {
     let sensor = registry.find(Class::Sensor, port)?;
     let is_meant = |sensor: &Arc<Device>| {

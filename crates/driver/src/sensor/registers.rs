@@ -1,10 +1,9 @@
 //! The registers of a sensor on the I2C bus.
 //!
-//! Such a sensor is a row of bytes, each with a number. The kernel's driver reads those
-//! that are measurements; a program reads and writes any by the file `direct`, in which a
-//! register is an offset. What goes over the bus at once is at most 32 bytes; the kernel
-//! drops what is beyond, and does not say so. The file ends before register 255
-//! (docs/ev3dev-sysfs.md, 5.1).
+//! Such a sensor is a row of bytes, each with a number. The kernel's driver reads those that are
+//! measurements; a program reads and writes any by the file `direct`, in which a register is an
+//! offset. What goes over the bus at once is at most 32 bytes; the kernel drops what is beyond, and
+//! does not say so. The file ends before register 255 (docs/ev3dev-sysfs.md, 5.1).
 use crate::class::Class;
 use crate::device::Device;
 use crate::device::registry::Registry;

@@ -1,10 +1,9 @@
 //! A kernel in the small: motors, sensors and a robot's heading behind
 //! attribute files that are nowhere but in memory.
 //!
-//! Its clock stands still but for [`Sysfs::pause`] and a little for each read
-//! and write, so that what takes seconds on a robot takes none here, and is the
-//! same each time. What a test wants to go wrong is a public field, set before
-//! or, by [`Brick::at`], at a certain time.
+//! Its clock stands still but for [`Sysfs::pause`] and a little for each read and write, so that
+//! what takes seconds on a robot takes none here, and is the same each time. What a test wants to
+//! go wrong is a public field, set before or, by [`Brick::at`], at a certain time.
 use ev3_driver::error::Access;
 use ev3_driver::sysfs::{AttributeFile, Entry, Repeated};
 use ev3_driver::{Device, Errno, Registry, Sysfs};
@@ -54,8 +53,7 @@ pub(crate) struct World {
     pub(crate) notifies: bool,
     /// Whether descriptors are always ready, as those of unplugged devices.
     pub(crate) always_ready: bool,
-    /// Degrees of the wheels for a degree of the robot, whose wheels are the
-    /// first two motors.
+    /// Degrees of the wheels for a degree of the robot, whose wheels are the first two motors.
     pub(crate) gearing: f64,
     /// The robot's heading, clockwise.
     pub(crate) heading: f64,

@@ -14,8 +14,7 @@ use std::time::Duration;
 const GYRO: &[(&str, &[i64], i64)] =
     &[("GYRO-ANG", &[0], 0), ("GYRO-RATE", &[0], 0), ("GYRO-G&A", &[0, 0], 0)];
 
-/// How close to the angle a turn ends, in degrees: the gyro shows whole ones, cut
-/// off and late.
+/// How close to the angle a turn ends, in degrees: the gyro shows whole ones, cut off and late.
 const WITHIN: f64 = 2.5;
 
 /// A robot whose axle is 2.2 wheel diameters long, and which turns as one with an

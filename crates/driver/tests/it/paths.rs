@@ -97,8 +97,7 @@ proptest! {
         prop_assert!((rolled - length).abs() < 0.02 * length + 0.5);
     }
 
-    /// A path with rounded corners passes through no point in particular, but
-    /// ends at the last.
+    /// A path with rounded corners passes through no point in particular, but ends at the last.
     #[test]
     fn paths_end_at_the_last_point(
         points in prop::collection::vec((-60.0_f64..60.0, -60.0_f64..60.0), 1..6),

@@ -8,8 +8,7 @@ use std::sync::{Mutex, MutexGuard};
 use std::thread::{self, ThreadId};
 use std::time::Duration;
 
-/// A periodic act in simulated time. It returns the time to its next run, or `None`
-/// if it ends.
+/// A periodic act in simulated time. It returns the time to its next run, or `None` if it ends.
 pub type Act = Box<dyn FnMut() -> Option<Duration> + Send>;
 
 /// The acts, and which thread runs one.

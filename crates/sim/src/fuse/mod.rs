@@ -1,11 +1,10 @@
 //! The tree as real files: any program in any language can use the simulated brick.
 //!
 //! The kernel asks; this module answers from a [`Shared`] machine, whose clock belongs to its
-//! caller.
-//! Reads go straight to the drivers (direct I/O), a write is one call, truncation is harmless, as
-//! in sysfs. A second thread wakes whenever time passes. It reports a changed `state` to poll(2),
-//! and answers blocking calls when their time is over. Entries of
-//! class directories are plain directories here, not symbolic links.
+//! caller. Reads go straight to the drivers (direct I/O), a write is one call, truncation is
+//! harmless, as in sysfs. A second thread wakes whenever time passes. It reports a changed `state`
+//! to poll(2), and answers blocking calls when their time is over. Entries of class directories are
+//! plain directories here, not symbolic links.
 
 mod files;
 mod open;

@@ -92,8 +92,7 @@ impl Machine {
         entries(directory)?.map(entry).collect()
     }
 
-    /// Kind, permission bits and size of a node below `/dev`. Only the screen
-    /// has a size.
+    /// Kind, permission bits and size of a node below `/dev`. Only the screen has a size.
     ///
     /// # Errors
     /// ENOENT if there is no such node.

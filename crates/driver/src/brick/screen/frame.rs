@@ -71,8 +71,7 @@ pub enum Shape {
     Rectangle([i32; 2], [u32; 2]),
     /// The middle, and the radius.
     Circle([i32; 2], u32),
-    /// A piece of a circle: from an angle, and by how much, in degrees
-    /// clockwise from the top.
+    /// A piece of a circle: from an angle, and by how much, in degrees clockwise from the top.
     Arc([i32; 2], u32, [f32; 2]),
 }
 

@@ -1,10 +1,9 @@
 //! The screen.
 //!
-//! Programs draw on a [`Frame`], which [`show`] then copies to the framebuffer
-//! in one go, so that nobody sees half of it. The panel shows four shades of
-//! gray. ev3dev before 4.14.34 shows black and white only: one bit for a pixel,
-//! 1 is black, the least significant bit is on the left. Since then there are
-//! 32 bits for a pixel, XRGB.
+//! Programs draw on a [`Frame`], which [`show`] then copies to the framebuffer in one go, so that
+//! nobody sees half of it. The panel shows four shades of gray. ev3dev before 4.14.34 shows black
+//! and white only: one bit for a pixel, 1 is black, the least significant bit is on the left. Since
+//! then there are 32 bits for a pixel, XRGB.
 pub mod frame;
 pub mod picture;
 

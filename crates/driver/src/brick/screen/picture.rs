@@ -22,8 +22,7 @@ impl Picture {
     /// than half transparent is left out.
     ///
     /// # Errors
-    /// [`Error::Open`]; [`Error::Format`] for what is no such file, as an
-    /// interlaced PNG.
+    /// [`Error::Open`]; [`Error::Format`] for what is no such file, as an interlaced PNG.
     pub fn read(path: &Path) -> Result<Self> {
         let mut bytes = Vec::new();
         let (file, _) = open_file(path, "png")?;
@@ -148,9 +147,8 @@ pub fn write_png(path: &Path, width: u32, height: u32, shades: &[u8]) -> Result<
     written.map_err(|source| Error::Open { path: path.to_owned(), access: Access::Write, source })
 }
 
-/// A PNG file of these shades, line by line. It is not compressed, which would
-/// take more memory of the program than it saves on the disk; but a pixel has no
-/// more bits than it needs.
+/// A PNG file of these shades, line by line. It is not compressed, which would take more memory of
+/// the program than it saves on the disk; but a pixel has no more bits than it needs.
 pub fn to_png(width: u32, height: u32, shades: &[u8]) -> Vec<u8> {
     let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
     let bits = bits_needed(shades);

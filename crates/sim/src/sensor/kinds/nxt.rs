@@ -34,8 +34,7 @@ const fn temperature(
     Mode::new(name, 1, 1, units, Format::S16Be, sense).scaled([-14080, 32767], shown)
 }
 
-/// LEGO's energy meter with nothing connected: no volts, amperes or watts,
-/// and 50 J left.
+/// LEGO's energy meter with nothing connected: no volts, amperes or watts, and 50 J left.
 const fn energy(name: &'static str, units: &'static str) -> Mode {
     Mode::new(name, 1, 3, units, Format::S16, Sense::Fixed(&[0]))
 }
