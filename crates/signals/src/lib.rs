@@ -30,10 +30,6 @@
 //!
 //! *Late*: the motors are stopped, and Prolog gets the signal without an answer.
 //!
-//! Who knows whom, from below: [`latch`], `lines` (the motors that run, as text) and `events` (two
-//! bytes for the watchdog) know nobody; `crash`, `handlers`, `survivor`; then `kept` (a motor of
-//! the driver) and `watchdog`, which hears and looks.
-//!
 //! If there are no signals there is the latch alone.
 #![cfg_attr(unix, expect(unsafe_code, reason = "handlers of signals, and processes, are C's"))]
 #[cfg(unix)]
