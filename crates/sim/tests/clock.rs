@@ -390,7 +390,7 @@ fn an_access_without_a_turn_does_not_wait_for_ever() {
     let simulation = simulation(Clock::Virtual);
     call(&simulation, "");
     let child = aside(&simulation, move |simulation| {
-        access::write(simulation, "tacho-motor/motor1/speed_sp", "0")
+        access::write(simulation, "tacho-motor/motor1/speed_sp", "0");
     });
     while !child.is_finished() {}
     child.join().unwrap();
