@@ -150,11 +150,19 @@ class Mount:
         # Only now: a wire that was pulled at the end of the last run is pulled before
         self.ask("forall(member(Port-Type, [outA-m, outB-l, outC-l]), (atomic_list_concat(['lego-ev3-', Type, "
                   "'-motor'], Motor), ignore(sim_plug(Port, Motor))))")
-        until(lambda: len(list(self.root.glob("tacho-motor/*"))) >= 3)
-        for _, folder in self.motors():
-            written(folder / "command", "reset" if folder.parent.name == "tacho-motor" else "float")
+        until(self.are_reset)
         self.tell("sim_place(60, 60, 0)")
         until(lambda: not self.running())
+
+    def are_reset(self):
+        """Whether all motors are there and have been reset: for a while the kernel shows one that was unplugged."""
+        folders = [folder for _, folder in self.motors()]
+        try:
+            for folder in folders:
+                written(folder / "command", "reset" if folder.parent.name == "tacho-motor" else "float")
+        except FileNotFoundError:
+            return False
+        return sum(folder.parent.name == "tacho-motor" for folder in folders) >= 3
 
     def running(self):
         """The ports of the motors that run."""
