@@ -12,9 +12,7 @@ use crate::value::{Value, holds_integer, integer};
 use crate::{motor, sensor};
 
 /// Reads an attribute; `None` where the device is gone.
-///
-/// # Errors
-/// The kernel's, as EACCES for an attribute that can only be written;
+/// Errors: the kernel's, as EACCES for an attribute that can only be written;
 /// [`Error::Malformed`](crate::Error::Malformed).
 pub fn read(registry: &Registry, device: &Device, name: &str) -> Result<Option<Value>> {
     registry.read(device, |device| value(device, name))
@@ -52,10 +50,8 @@ fn value(device: &Device, name: &str) -> Result<Value> {
 }
 
 /// Writes an attribute; `None` where the device is absent.
-///
-/// # Errors
-/// The kernel's, as EINVAL for a value that is not accepted, EACCES for an
-/// attribute that can only be read; [`Error::Interrupted`](crate::Error).
+/// Errors: the kernel's, as EINVAL for a value that is not accepted, EACCES for an attribute that
+/// can only be read; [`Error::Interrupted`](crate::Error).
 pub fn write(
     registry: &Registry,
     class: Class,

@@ -23,9 +23,7 @@ pub trait Devfs: Send + Sync {
     fn root(&self) -> &Path;
 
     /// Opens a device below the root. Never blocks.
-    ///
-    /// # Errors
-    /// The kernel's, as ENOENT if there is no such device.
+    /// Errors: the kernel's, as ENOENT if there is no such device.
     fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Stream>>;
 
     /// The time since some fixed moment.
@@ -33,9 +31,7 @@ pub trait Devfs: Send + Sync {
 
     /// Lets time pass: returns when there may be something to read, when a signal arrives, or at
     /// `end`. May return early. `false` as for [`Sysfs::pause`](crate::sysfs::Sysfs::pause).
-    ///
-    /// # Errors
-    /// The kernel's, as ENOMEM.
+    /// Errors: the kernel's, as ENOMEM.
     fn pause(&self, stream: Option<&dyn Stream>, end: Duration) -> io::Result<bool>;
 
     /// A speaker that speaks by itself, as a simulated one does. With a real
@@ -48,9 +44,7 @@ pub trait Devfs: Send + Sync {
 /// An open device.
 pub trait Stream: Send + Sync {
     /// Reads what comes next.
-    ///
-    /// # Errors
-    /// EAGAIN if there is nothing yet, else the kernel's.
+    /// Errors: EAGAIN if there is nothing yet, else the kernel's.
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize>;
 
     /// Writes behind what was written before.
@@ -60,9 +54,7 @@ pub trait Stream: Send + Sync {
     fn skip(&self) -> io::Result<()>;
 
     /// The keys that are down, a bit for each code, as EVIOCGKEY reports.
-    ///
-    /// # Errors
-    /// ENOTTY where the file is no such device.
+    /// Errors: ENOTTY where the file is no such device.
     fn key_state(&self, bits: &mut [u8]) -> io::Result<()>;
 
     /// How many bytes there are, if it is a store of bytes.

@@ -32,22 +32,16 @@ pub trait Sysfs: Send + Sync {
     fn root(&self) -> &Path;
 
     /// The entries of a directory, in any order.
-    ///
-    /// # Errors
-    /// The kernel's, as ENOENT if there is no such directory.
+    /// Errors: the kernel's, as ENOENT if there is no such directory.
     fn list(&self, directory: &Path) -> io::Result<Vec<Entry>>;
 
     /// Opens an attribute for one kind of access. Never blocks.
-    ///
-    /// # Errors
-    /// The kernel's, as EACCES where the attribute cannot be accessed so.
+    /// Errors: the kernel's, as EACCES where the attribute cannot be accessed so.
     fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn AttributeFile>>;
 
     /// The paths that match a shell pattern (`*`, `?`, `[...]`, `**`), sorted.
     /// A pattern below `/sys/class` matches in this tree.
-    ///
-    /// # Errors
-    /// [`Error::Pattern`].
+    /// Errors: [`Error::Pattern`].
     fn matching(&self, pattern: &str) -> Result<Vec<PathBuf>>;
 
     /// The time since some fixed moment.
@@ -61,9 +55,7 @@ pub trait Sysfs: Send + Sync {
     /// Lets time pass: returns when one of `nodes` announces a change (as the kernel does by
     /// POLLPRI), when a signal arrives, or at `end`. May return early. `false` if no time has
     /// passed for this thread: it is to handle signals, and to go on with the same pause.
-    ///
-    /// # Errors
-    /// The kernel's, as ENOMEM.
+    /// Errors: the kernel's, as ENOMEM.
     fn pause(&self, nodes: &[&dyn AttributeFile], end: Duration) -> io::Result<bool>;
 
     /// Whether threads wait for their turns, see [`turn`](Self::turn).
@@ -80,9 +72,7 @@ pub trait Sysfs: Send + Sync {
 
     /// Calls `act` after `period`, by the tree's clock, and from then on each time after what it
     /// answers, until that is `None`. By default a thread does so, by the wall.
-    ///
-    /// # Errors
-    /// The kernel's, where that takes a thread and none can be had.
+    /// Errors: the kernel's, where that takes a thread and none can be had.
     #[cfg(unix)]
     fn every(&self, period: Duration, mut act: Repeated) -> io::Result<()> {
         let run = move || {
@@ -101,9 +91,7 @@ pub trait Sysfs: Send + Sync {
     }
 
     /// The same, if there are no threads: only a simulated tree can do so.
-    ///
-    /// # Errors
-    /// ENOSYS
+    /// Errors: ENOSYS
     #[cfg(not(unix))]
     fn every(&self, _period: Duration, _act: Repeated) -> io::Result<()> {
         Err(Errno::NOSYS.into())
@@ -148,15 +136,11 @@ pub(crate) fn pause(
 /// An open attribute file.
 pub trait AttributeFile: Send + Sync {
     /// Reads the whole text, as the driver generates it now.
-    ///
-    /// # Errors
-    /// The driver's, as ENODEV once the device is unplugged.
+    /// Errors: the driver's, as ENODEV once the device is unplugged.
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize>;
 
     /// Writes one value.
-    ///
-    /// # Errors
-    /// The driver's, as EINVAL for a value it does not accept.
+    /// Errors: the driver's, as EINVAL for a value it does not accept.
     fn write(&self, text: &[u8]) -> io::Result<()>;
 
     /// Reads a file that is not a text, from an offset on.

@@ -35,9 +35,7 @@ pub trait Wait {
     type End;
 
     /// Whether it is over.
-    ///
-    /// # Errors
-    /// Those of what is waited for.
+    /// Errors: those of what is waited for.
     fn look(&mut self) -> Result<Look<Self::End>>;
 
     /// Lets time pass until `end`, or for less. `false` as for
@@ -84,9 +82,7 @@ impl<W: Wait> Slices<W> {
 
     /// Looks, and lets time pass, until `latest` at most. The end of the wait, or `None`: then the
     /// caller handles signals, and calls again.
-    ///
-    /// # Errors
-    /// As [`Wait::look`] and [`Wait::pause`].
+    /// Errors: as [`Wait::look`] and [`Wait::pause`].
     pub fn slice(&mut self, latest: Option<Duration>) -> Result<Option<W::End>> {
         let end = match self.pausing {
             Some(end) => end,
@@ -115,9 +111,7 @@ impl<W: Wait> Slices<W> {
     }
 
     /// Waits to the end.
-    ///
-    /// # Errors
-    /// As [`slice`](Self::slice); [`Error::Interrupted`].
+    /// Errors: as [`slice`](Self::slice); [`Error::Interrupted`].
     pub fn block(mut self, interrupted: Interrupted) -> Result<W::End> {
         while !interrupted() {
             if let Some(end) = self.slice(None)? {

@@ -64,9 +64,7 @@ impl Field {
     /// degrees to each side.
     ///
     /// A map without bounds ends where its obstacles end.
-    ///
-    /// # Errors
-    /// If there is nothing on the map, or no room.
+    /// Errors: if there is nothing on the map, or no room.
     pub fn new(map: &Map, hull: f64, half_angle: f64) -> Result<Field, Unfit> {
         let bounds = map.bounds().copied().or_else(|| around(map)).ok_or(Unfit::Endless)?;
         let Bounds { low, high } = bounds;

@@ -89,9 +89,7 @@ pub fn readable(stream: &UnixStream, within: Duration) -> io::Result<bool> {
 
 impl Mailbox {
     /// An empty one, whose size nobody can change.
-    ///
-    /// # Errors
-    /// The system's, for example if there are no files in memory.
+    /// Errors: the system's, for example if there are no files in memory.
     pub fn new() -> io::Result<Mailbox> {
         let file = memfd_create("ev3dev-mailbox", MemfdFlags::CLOEXEC | MemfdFlags::ALLOW_SEALING)?;
         ftruncate(&file, BYTES as u64)?;
@@ -120,9 +118,7 @@ impl Mailbox {
     }
 
     /// Receives exactly as many bytes as there is room for, and the mailbox that came with them.
-    ///
-    /// # Errors
-    /// The system's; `UnexpectedEof` if there are less.
+    /// Errors: the system's; `UnexpectedEof` if there are less.
     pub fn receive(stream: &UnixStream, bytes: &mut [u8]) -> io::Result<Option<Mailbox>> {
         let mut space = [MaybeUninit::uninit(); rustix::cmsg_space!(ScmRights(1))];
         let mut with = RecvAncillaryBuffer::new(&mut space);

@@ -40,9 +40,7 @@ pub struct Step {
 impl Views {
     /// Plans with the map and with what has been seen. The distance to keep is the hull's radius
     /// and a margin in cm, or a part of that if no way is wide enough.
-    ///
-    /// # Errors
-    /// Says why there is no way.
+    /// Errors: says why there is no way.
     pub fn next_step(
         &mut self,
         known: &Map,

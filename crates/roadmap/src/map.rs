@@ -48,9 +48,7 @@ pub enum Fault {
 
 impl Obstacle {
     /// A polygon by its corners, in either order; the first is not repeated.
-    ///
-    /// # Errors
-    /// If it has fewer than three corners or crosses or touches itself.
+    /// Errors: if it has fewer than three corners or crosses or touches itself.
     pub fn polygon(mut corners: Vec<Point>) -> Result<Obstacle, Fault> {
         in_range(corners.iter().flatten())?;
         if corners.len() < 3 {
@@ -66,9 +64,7 @@ impl Obstacle {
     }
 
     /// A box by its middle; the depth is along its heading.
-    ///
-    /// # Errors
-    /// If it has no size.
+    /// Errors: if it has no size.
     pub fn rectangle(
         middle: Point,
         width: f64,
@@ -84,9 +80,7 @@ impl Obstacle {
     }
 
     /// A wall from a point to another.
-    ///
-    /// # Errors
-    /// If it has no length or thickness.
+    /// Errors: if it has no length or thickness.
     pub fn wall(from: Point, to: Point, thickness: f64) -> Result<Obstacle, Fault> {
         in_range(from.iter().chain(&to))?;
         positive(&[distance(from, to), thickness])?;
@@ -96,9 +90,7 @@ impl Obstacle {
     }
 
     /// Something round.
-    ///
-    /// # Errors
-    /// If it has no size.
+    /// Errors: if it has no size.
     pub fn circle(center: Point, radius: f64) -> Result<Obstacle, Fault> {
         in_range(&center)?;
         positive(&[radius])?;
@@ -153,9 +145,7 @@ pub struct Map {
 
 impl Map {
     /// A map of these obstacles.
-    ///
-    /// # Errors
-    /// If the bounds have no inside.
+    /// Errors: if the bounds have no inside.
     pub fn new(obstacles: Vec<Obstacle>, bounds: Option<Bounds>) -> Result<Map, Fault> {
         let mut map = Map { bounds, ..Map::default() };
         if let Some(bounds) = bounds {

@@ -33,9 +33,7 @@ pub struct Solution {
 }
 
 /// Finds a way from a start to a goal.
-///
-/// # Errors
-/// The reason why there is no path.
+/// Errors: the reason why there is no path.
 pub fn plan(map: &Map, start: Point, goal: Point, options: &Options) -> Result<Solution, NoWay> {
     if !map.point_clear(start, options.keep) {
         return Err(NoWay::StartBlocked);

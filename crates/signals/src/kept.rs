@@ -21,9 +21,7 @@ pub struct Kept(&'static Slot);
 impl Kept {
     /// Keeps the open `command` of a motor, which `word` stops; `None` if too many are kept
     /// already.
-    ///
-    /// # Errors
-    /// The kernel's, if there is no descriptor left.
+    /// Errors: the kernel's, if there is no descriptor left.
     pub fn new(descriptor: c_int, path: &Path, word: &str) -> io::Result<Option<Self>> {
         let path = std::path::absolute(path)?;
         let path = path.as_os_str().as_bytes();
@@ -35,9 +33,7 @@ impl Kept {
     }
 
     /// Has `write` give the motor a command.
-    ///
-    /// # Errors
-    /// Those of `write`; no motor starts that nobody could stop after us.
+    /// Errors: those of `write`; no motor starts that nobody could stop after us.
     #[inline]
     pub fn tell(&self, text: &[u8], write: impl FnOnce() -> io::Result<()>) -> io::Result<()> {
         let starts = text.starts_with(b"run");

@@ -57,9 +57,7 @@ static ADDING: Mutex<()> = Mutex::new(());
 
 impl Slot {
     /// The slot of an open file, with this line after its first byte; `None` if there is no room.
-    ///
-    /// # Errors
-    /// The kernel's, if there is no descriptor left.
+    /// Errors: the kernel's, if there is no descriptor left.
     pub(crate) fn of(descriptor: c_int, rest: &[u8]) -> io::Result<Option<&'static Self>> {
         let line = [&[RESTS], rest].concat();
         let _adding = ADDING.lock().unwrap_or_else(PoisonError::into_inner);

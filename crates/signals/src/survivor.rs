@@ -63,9 +63,7 @@ impl Plan {
 }
 
 /// Starts it, with the file of the lines. Where there can be no process, nothing is lost but this.
-///
-/// # Errors
-/// The kernel's, where no descriptor is left.
+/// Errors: the kernel's, where no descriptor is left.
 pub(crate) fn start(lines: c_int) -> io::Result<()> {
     if lines == NONE || !IS_WANTED.load(Ordering::Relaxed) {
         return Ok(());

@@ -53,9 +53,7 @@ pub fn is_to_halt(halts: bool) {
 }
 
 /// Takes the signals that end a program, from now on, unless it does already.
-///
-/// # Errors
-/// The kernel's, where no thread or no descriptor can be had; then it may be tried again.
+/// Errors: the kernel's, where no thread or no descriptor can be had; then it may be tried again.
 pub fn watch(asked: Asked) -> io::Result<()> {
     static TAKING: Mutex<()> = Mutex::new(());
     let _taking = TAKING.lock().unwrap_or_else(PoisonError::into_inner);

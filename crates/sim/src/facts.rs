@@ -139,9 +139,7 @@ pub enum Fact {
 
 impl Fact {
     /// The fact with this name. `None` if its arguments are others than its form says.
-    ///
-    /// # Errors
-    /// If a world cannot be drawn like that.
+    /// Errors: if a world cannot be drawn like that.
     pub fn of(name: &str, arguments: &[Value]) -> Result<Option<Fact>, SpecError> {
         use Value::{Color, EchoOptions, MotorOptions, Number, Port, Rows, Text, WheelOptions};
         if let Some(item) = Item::of(name, arguments) {
@@ -278,9 +276,7 @@ impl WorldSpec {
 impl RobotSpec {
     /// The robot that facts describe. Later ones override earlier ones. Facts about worlds are
     /// ignored.
-    ///
-    /// # Errors
-    /// Names the first impossible part, else all parts that are missing.
+    /// Errors: names the first impossible part, else all parts that are missing.
     pub fn from_facts(facts: &[Fact]) -> Result<RobotSpec, SpecError> {
         let mut chassis = Chassis::default();
         let (mut motors, mut sensors): (Vec<MotorMount>, Vec<SensorMount>) = Default::default();

@@ -60,8 +60,7 @@ impl Echo {
     /// Apart from all disturbances of the same port.
     const STREAM: u64 = 0xec40;
 
-    /// # Errors
-    /// What is out of range.
+    /// Errors: what is out of range.
     pub(crate) fn validate(&self) -> Result<(), &'static str> {
         if !(0.0..=60.0).contains(&self.half_angle) {
             return Err("needs a half_angle from 0 to 60 degrees");

@@ -112,9 +112,7 @@ impl RobotSpec {
     }
 
     /// Checks the numbers, the drivers' names, and that no port is used twice.
-    ///
-    /// # Errors
-    /// Names the first offending part.
+    /// Errors: names the first offending part.
     pub fn validate(&self) -> Result<(), SpecError> {
         let RobotSpec { wheels, hull, mass, .. } = *self;
         let parts = Chassis {

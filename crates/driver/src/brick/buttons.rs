@@ -105,9 +105,7 @@ pub struct Event {
 }
 
 /// The buttons that are down now; `None` if there are no buttons.
-///
-/// # Errors
-/// The kernel's, as EACCES for a user who is not in the group `input`.
+/// Errors: the kernel's, as EACCES for a user who is not in the group `input`.
 pub fn pressed(dev: &dyn Devfs) -> Result<Option<Vec<Button>>> {
     let Some((stream, path)) = open_first(dev, &DEVICES, Access::Read)? else {
         return Ok(None);

@@ -220,9 +220,7 @@ impl Light {
 
 /// Makes a light show a color, and removes its trigger. `None` if there is no
 /// such light, `false` if it cannot show that.
-///
-/// # Errors
-/// The kernel's; [`Error::Interrupted`].
+/// Errors: the kernel's; [`Error::Interrupted`].
 pub fn set_color(
     registry: &Registry,
     name: &str,
@@ -247,9 +245,7 @@ pub fn set_color(
 }
 
 /// Lets something else switch a light, in the color it shows. `None` where there is no such light.
-///
-/// # Errors
-/// The kernel's, as EINVAL for a trigger it does not know; [`Error::Interrupted`].
+/// Errors: the kernel's, as EINVAL for a trigger it does not know; [`Error::Interrupted`].
 pub fn set_trigger(
     registry: &Registry,
     name: &str,

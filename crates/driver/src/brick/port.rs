@@ -67,9 +67,7 @@ fn device_at(registry: &Registry, port: &str) -> Result<Option<Arc<Device>>> {
 /// Puts a port into a mode, if it is in another, and waits until the device that the mode makes is
 /// there and can be written. The mode `auto` makes none, but looks for one: what is detected is
 /// waited for. `None` if there is no such port, `false` if that device does not appear.
-///
-/// # Errors
-/// The kernel's, as EINVAL for a mode the port does not have; [`Error::Interrupted`].
+/// Errors: the kernel's, as EINVAL for a mode the port does not have; [`Error::Interrupted`].
 pub fn set_mode(
     registry: &Registry,
     port: &str,
@@ -117,9 +115,7 @@ fn detects(registry: &Registry, port: &str, interrupted: Interrupted) -> Result<
 
 /// Sets the device of a port, if another one is there, and waits until that one is there and can be
 /// written. `None` if there is no such port, `false` if the device does not appear.
-///
-/// # Errors
-/// [`Error::UnknownMotorType`] for a type that no output port has; the kernel's, as
+/// Errors: [`Error::UnknownMotorType`] for a type that no output port has; the kernel's, as
 /// EOPNOTSUPP where the port has no device to set; [`Error::Interrupted`].
 pub fn set_device(
     registry: &Registry,
@@ -152,9 +148,7 @@ pub fn set_device(
 
 /// Waits until any device, or one of a certain type, is at a port and can be
 /// written; `false` if that takes too long.
-///
-/// # Errors
-/// The kernel's; [`Error::Interrupted`].
+/// Errors: the kernel's; [`Error::Interrupted`].
 fn wait_for(
     registry: &Registry,
     find: impl Fn() -> Result<Option<Arc<Device>>>,

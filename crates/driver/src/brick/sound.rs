@@ -61,9 +61,7 @@ pub struct Sound {
 impl Sound {
     /// Plays tones one after the other, and waits until they are over; `None` if there is no
     /// speaker. The speaker is silent afterwards, also when the wait is left.
-    ///
-    /// # Errors
-    /// The kernel's, as EACCES for a user who is not in the group `input`.
+    /// Errors: the kernel's, as EACCES for a user who is not in the group `input`.
     pub fn play_tones(
         &self,
         dev: &Arc<dyn Devfs>,
@@ -128,9 +126,7 @@ impl Sound {
     }
 
     /// Says a text, and waits until it is said.
-    ///
-    /// # Errors
-    /// [`Error::NoProgram`] without espeak or aplay, [`Error::Program`].
+    /// Errors: [`Error::NoProgram`] without espeak or aplay, [`Error::Program`].
     pub fn say(&self, dev: &Arc<dyn Devfs>, text: &str) -> Result<AnyWait<'_, ()>> {
         match dev.speaker() {
             Some(speaker) => Ok(self.let_speak(dev, || speaker.say(text))),
@@ -139,9 +135,7 @@ impl Sound {
     }
 
     /// Starts to say a text, in the place of all other sounds.
-    ///
-    /// # Errors
-    /// As [`say`](Self::say), if a program cannot be started.
+    /// Errors: as [`say`](Self::say), if a program cannot be started.
     pub fn begin_saying(
         &'static self,
         tree: &dyn Sysfs,
@@ -156,9 +150,7 @@ impl Sound {
     }
 
     /// Plays a recording, a WAV file, and waits until it is over.
-    ///
-    /// # Errors
-    /// As [`say`](Self::say); [`Error::Open`], [`Error::Format`] for what is no WAV file.
+    /// Errors: as [`say`](Self::say); [`Error::Open`], [`Error::Format`] for what is no WAV file.
     pub fn play(&self, dev: &Arc<dyn Devfs>, path: &Path) -> Result<AnyWait<'_, ()>> {
         let lasts = length_of(path)?;
         let Some(speaker) = dev.speaker() else {
@@ -172,9 +164,7 @@ impl Sound {
     }
 
     /// Starts to play a recording, in the place of all other sounds.
-    ///
-    /// # Errors
-    /// As [`play`](Self::play), if the program cannot be started.
+    /// Errors: as [`play`](Self::play), if the program cannot be started.
     pub fn begin_playing(
         &'static self,
         tree: &dyn Sysfs,
@@ -262,9 +252,7 @@ fn playing(path: &Path) -> Result<[Started; 1]> {
 }
 
 /// The volume in percent; `None` if there is no mixer for it.
-///
-/// # Errors
-/// [`Error::NoProgram`] without amixer.
+/// Errors: [`Error::NoProgram`] without amixer.
 pub fn volume(dev: &dyn Devfs) -> Result<Option<u8>> {
     if let Some(speaker) = dev.speaker() {
         return Ok(Some(speaker.volume()));
@@ -273,9 +261,7 @@ pub fn volume(dev: &dyn Devfs) -> Result<Option<u8>> {
 }
 
 /// Sets the volume in percent; `None` if there is no mixer for it.
-///
-/// # Errors
-/// [`Error::NoProgram`] without amixer, [`Error::Program`].
+/// Errors: [`Error::NoProgram`] without amixer, [`Error::Program`].
 pub fn set_volume(dev: &dyn Devfs, percent: u8) -> Result<Option<()>> {
     if let Some(speaker) = dev.speaker() {
         speaker.set_volume(percent);

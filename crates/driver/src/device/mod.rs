@@ -297,9 +297,7 @@ impl Device {
     }
 
     /// An integer attribute.
-    ///
-    /// # Errors
-    /// [`Error::Malformed`] where the file holds none, else the kernel's.
+    /// Errors: [`Error::Malformed`] where the file holds none, else the kernel's.
     pub fn number(&self, attribute: &str) -> Result<i64> {
         let attribute = self.attribute(attribute);
         let mut buffer = [0; SHORT];
@@ -345,17 +343,13 @@ impl Device {
     }
 
     /// The bytes of an attribute that is not a text; how many there are.
-    ///
-    /// # Errors
-    /// [`Error::Malformed`] where they fill the buffer, else the kernel's.
+    /// Errors: [`Error::Malformed`] where they fill the buffer, else the kernel's.
     pub(crate) fn bytes(&self, attribute: &str, buffer: &mut [u8]) -> Result<usize> {
         Ok(self.attribute(attribute).read(self.tree(), buffer)?.len())
     }
 
     /// Fills a buffer with what an attribute that is not a text has from an offset on.
-    ///
-    /// # Errors
-    /// [`Error::Malformed`] where it is shorter, else the kernel's.
+    /// Errors: [`Error::Malformed`] where it is shorter, else the kernel's.
     pub(crate) fn read_at(&self, attribute: &str, buffer: &mut [u8], offset: u8) -> Result<()> {
         self.attribute(attribute).read_at(self.tree(), buffer, offset)
     }
@@ -366,9 +360,7 @@ impl Device {
     }
 
     /// Calls `look` with the text of a short attribute, such as `mode` or `state`.
-    ///
-    /// # Errors
-    /// [`Error::Malformed`] where the text is not UTF-8, else the kernel's.
+    /// Errors: [`Error::Malformed`] where the text is not UTF-8, else the kernel's.
     pub fn with_word<T>(&self, attribute: &str, look: impl FnOnce(&str) -> T) -> Result<T> {
         let attribute = self.attribute(attribute);
         let mut buffer = [0; SHORT];
@@ -378,9 +370,7 @@ impl Device {
     }
 
     /// Whether a short attribute, such as `mode`, is that word.
-    ///
-    /// # Errors
-    /// [`Error::Malformed`] where the text is not UTF-8, else the kernel's.
+    /// Errors: [`Error::Malformed`] where the text is not UTF-8, else the kernel's.
     pub(crate) fn is_word(&self, attribute: &str, word: &str) -> Result<bool> {
         let attribute = self.attribute(attribute);
         let mut buffer = [0; SHORT];
@@ -395,9 +385,8 @@ impl Device {
     }
 
     /// The text of an attribute.
-    ///
-    /// # Errors
-    /// [`Error::Malformed`] where it is not UTF-8 or is longer than a page, else the kernel's.
+    /// Errors: [`Error::Malformed`] where it is not UTF-8 or is longer than a page, else the
+    /// kernel's.
     pub fn text(&self, attribute: &str) -> Result<String> {
         let attribute = self.attribute(attribute);
         let mut line = [0; LINE];
@@ -424,9 +413,7 @@ impl Device {
     }
 
     /// Writes an attribute.
-    ///
-    /// # Errors
-    /// The kernel's, as EINVAL for a value that is not accepted.
+    /// Errors: the kernel's, as EINVAL for a value that is not accepted.
     pub fn write(&self, attribute: &str, text: &str) -> Result<()> {
         self.attribute(attribute).write(self.tree(), text)?;
         self.written.note(attribute, text);
@@ -506,9 +493,7 @@ fn named(
 }
 
 /// Reads the `address` and `driver_name` of the device at a path.
-///
-/// # Errors
-/// The kernel's; [`Error::Malformed`] if there is no address.
+/// Errors: the kernel's; [`Error::Malformed`] if there is no address.
 pub fn identity(tree: &dyn Sysfs, path: &Path) -> Result<(String, String)> {
     let (_, address) = address_of(tree, path)?;
     Ok((address, read_file(tree, &path.join("driver_name"))?))

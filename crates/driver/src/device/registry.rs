@@ -105,9 +105,7 @@ impl Registry {
     }
 
     /// All devices of a class, in the order of their ports.
-    ///
-    /// # Errors
-    /// The kernel's. A class that does not exist has no devices.
+    /// Errors: the kernel's. A class that does not exist has no devices.
     pub fn all(&self, class: Class) -> Result<Arc<[Arc<Device>]>> {
         let mut listing = self.listing(class);
         if !self.is_fresh(&listing) {
@@ -158,9 +156,7 @@ impl Registry {
     }
 
     /// Calls a closure with the device at a port; `None` if there is no device.
-    ///
-    /// # Errors
-    /// As `act`, or as [`all`](Self::all).
+    /// Errors: as `act`, or as [`all`](Self::all).
     pub fn with<T>(
         &self,
         class: Class,
@@ -177,9 +173,7 @@ impl Registry {
     }
 
     /// Reads from a device, or from the one that has replaced it; `None` if the port is empty now.
-    ///
-    /// # Errors
-    /// As `read`, or as [`all`](Self::all).
+    /// Errors: as `read`, or as [`all`](Self::all).
     pub fn read<T>(
         &self,
         device: &Device,
@@ -196,9 +190,7 @@ impl Registry {
 
     /// Calls `act`, and once more with a new listing if it met a device that answers as an
     /// unplugged one does: a device that was plugged in again has another number.
-    ///
-    /// # Errors
-    /// As `act`.
+    /// Errors: as `act`.
     pub(crate) fn retry_after_relisting<T>(&self, mut act: impl FnMut() -> Result<T>) -> Result<T> {
         match act() {
             Err(error) if error.is_stale() => {
@@ -227,9 +219,7 @@ impl Registry {
 
     /// The devices whose directories match a shell pattern, in the order of
     /// their ports. Directories that hold no device are passed over.
-    ///
-    /// # Errors
-    /// [`Error::Pattern`]; the kernel's, as EMFILE.
+    /// Errors: [`Error::Pattern`]; the kernel's, as EMFILE.
     pub fn detect(&self, pattern: &str) -> Result<Vec<Detected>> {
         let paths = self.tree.matching(pattern)?;
         let mut detected = Vec::new();

@@ -25,9 +25,7 @@ const LAST_TRIES: u32 = 1;
 
 /// Calls `attempt` every 20 ms until it answers something. `None` means "not yet": the attempt
 /// decides which errors and states are worth another try, and for how long.
-///
-/// # Errors
-/// As `attempt`; [`Error::Interrupted`].
+/// Errors: as `attempt`; [`Error::Interrupted`].
 pub(crate) fn until_some<T>(
     tree: &dyn Sysfs,
     interrupted: Interrupted,
@@ -44,9 +42,7 @@ pub(crate) fn until_some<T>(
 /// Does something with devices, and repeats it while one of them is so new
 /// that udev has not opened its files yet. It must be harmless to repeat what
 /// `act` does before it opens the last of its files.
-///
-/// # Errors
-/// As `act`; [`Error::Interrupted`].
+/// Errors: as `act`; [`Error::Interrupted`].
 pub(crate) fn while_permissions_settle<T>(
     registry: &Registry,
     interrupted: Interrupted,
@@ -61,9 +57,7 @@ pub(crate) fn while_permissions_settle<T>(
 
 /// Does something with the device at a port, as [`Registry::with`] does, and
 /// waits while udev has not opened the device's files yet.
-///
-/// # Errors
-/// As `act`, or as [`Registry::all`]; [`Error::Interrupted`].
+/// Errors: as `act`, or as [`Registry::all`]; [`Error::Interrupted`].
 pub fn with<T>(
     registry: &Registry,
     class: Class,

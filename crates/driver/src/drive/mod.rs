@@ -191,9 +191,7 @@ impl Drive {
 
     /// Begins a motion in the place of the one under way. `None` if a motor is
     /// absent or the motion is impossible; then nothing has moved.
-    ///
-    /// # Errors
-    /// The kernel's; [`Error::Interrupted`].
+    /// Errors: the kernel's; [`Error::Interrupted`].
     pub fn begin(
         &self,
         command: &Command,

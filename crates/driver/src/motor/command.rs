@@ -12,9 +12,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Writes a command to one motor and leaves its set-points as they are.
-///
-/// # Errors
-/// The kernel's, as EINVAL for a command the motor does not have.
+/// Errors: the kernel's, as EINVAL for a command the motor does not have.
 pub fn command(motor: &Device, word: &str) -> Result<()> {
     let end = match word {
         // The last one is a servo's.
@@ -98,9 +96,7 @@ pub(crate) fn runs_on(motor: &Device) -> bool {
 
 /// Stops a motor, in some way even if it does not have that action: the
 /// `BrickPi`'s motors cannot brake.
-///
-/// # Errors
-/// The kernel's, as EINVAL for the action.
+/// Errors: the kernel's, as EINVAL for the action.
 pub fn stop(motor: &Device, action: StopAction) -> Result<()> {
     let chosen = motor.write("stop_action", action.word());
     let stopped = start(motor, "stop", None);

@@ -23,9 +23,7 @@ const LONGEST_MS: i32 = 60_000;
 
 /// Runs a motor at a duty until it is stopped. `false` if it is absent or the
 /// percentage beyond 100; then nothing has moved.
-///
-/// # Errors
-/// The kernel's; [`Interrupted`](crate::Error::Interrupted).
+/// Errors: the kernel's; [`Interrupted`](crate::Error::Interrupted).
 pub fn run_forever(
     registry: &Registry,
     port: &str,

@@ -118,9 +118,7 @@ pub fn stop_commanded(registry: &Registry, commands: &Range<u32>) -> Result<()> 
 
 /// Stops all motors that are connected, also those of other programs; servos keep their positions.
 /// One whose files udev has not opened yet is waited for, once all others are stopped.
-///
-/// # Errors
-/// The kernel's. If the motors cannot be listed, those of the last listing are stopped.
+/// Errors: the kernel's. If the motors cannot be listed, those of the last listing are stopped.
 /// [`Error::Interrupted`].
 pub fn stop_connected(registry: &Registry, interrupted: Interrupted) -> Result<()> {
     let (mut left, mut listed) = (Vec::new(), Ok(()));
@@ -147,9 +145,7 @@ pub fn stop_connected(registry: &Registry, interrupted: Interrupted) -> Result<(
 
 /// Runs motors until they are stopped: the motors, or `None` if one is absent or cannot run
 /// at its speed; then nothing has moved.
-///
-/// # Errors
-/// The kernel's. A motor that goes away while the others start stops them.
+/// Errors: the kernel's. A motor that goes away while the others start stops them.
 /// [`Error::DuplicatePort`]; [`Interrupted`](Error::Interrupted).
 pub fn run_forever(
     registry: &Registry,
@@ -196,9 +192,7 @@ pub(crate) fn run_at(motors: &[Arc<Device>], speeds: impl IntoIterator<Item = i6
 /// Gives a motor without regulation, of either class, a share of the voltage
 /// until it is stopped; when it runs so already, from now on. `false` if it is
 /// absent or the percentage beyond 100; then nothing has moved.
-///
-/// # Errors
-/// The kernel's, as EINVAL of a motor that cannot; [`Error::Interrupted`].
+/// Errors: the kernel's, as EINVAL of a motor that cannot; [`Error::Interrupted`].
 pub fn run_direct(
     registry: &Registry,
     class: Class,
@@ -221,11 +215,9 @@ pub fn run_direct(
 ///
 /// Without [`MoveOptions::wait`] the answer is [`Reason::Reached`] once the
 /// motors are started. A move that does not reach its end is stopped.
-///
-/// # Errors
-/// The kernel's; [`Unplugged`](crate::Error::Unplugged) if one is unplugged under way;
-/// [`Interrupted`](crate::Error::Interrupted) if the caller abandoned the wait.
-/// The motors are stopped before. [`Error::DuplicatePort`].
+/// Errors: the kernel's; [`Unplugged`](crate::Error::Unplugged) if one is unplugged under way;
+/// [`Interrupted`](crate::Error::Interrupted) if the caller abandoned the wait. The motors are
+/// stopped before. [`Error::DuplicatePort`].
 pub fn run_to(
     registry: &Arc<Registry>,
     moves: &[Move],
@@ -404,9 +396,7 @@ fn find_each<'a>(
 }
 
 /// The tacho motors at these ports, or `None` if one is absent.
-///
-/// # Errors
-/// The kernel's, as ENODEV for one that was just unplugged.
+/// Errors: the kernel's, as ENODEV for one that was just unplugged.
 pub fn find_all<'a>(
     registry: &Registry,
     ports: impl IntoIterator<Item = &'a str>,

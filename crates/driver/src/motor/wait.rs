@@ -80,9 +80,7 @@ impl Reason {
 }
 
 /// Waits until none of the motors runs, or one of them is blocked or unplugged.
-///
-/// # Errors
-/// The kernel's; [`Error::Interrupted`](crate::Error::Interrupted).
+/// Errors: the kernel's; [`Error::Interrupted`](crate::Error::Interrupted).
 pub fn wait_for(
     registry: &Arc<Registry>,
     motors: &[Arc<Device>],

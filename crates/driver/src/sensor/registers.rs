@@ -15,9 +15,7 @@ use crate::sensor::{is_on_bus, while_it_connects};
 const REGISTERS: &str = "direct";
 
 /// Reads as many registers as the buffer holds, at most 32. `None` if there is no sensor.
-///
-/// # Errors
-/// [`Error::NotOnBus`]; the bus's, after two seconds of trying where it is ENXIO, EBUSY or
+/// Errors: [`Error::NotOnBus`]; the bus's, after two seconds of trying where it is ENXIO, EBUSY or
 /// ETIMEDOUT; [`Error::Interrupted`].
 pub fn read(
     registry: &Registry,
@@ -38,9 +36,7 @@ pub fn read(
 
 /// Writes registers, at most 32, once: a sensor may act on what is written to it. `None`
 /// if there is no sensor.
-///
-/// # Errors
-/// [`Error::NotOnBus`]; the bus's; [`Error::Interrupted`].
+/// Errors: [`Error::NotOnBus`]; the bus's; [`Error::Interrupted`].
 pub fn write(
     registry: &Registry,
     port: &str,

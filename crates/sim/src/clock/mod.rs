@@ -118,9 +118,7 @@ fn started(
 impl Simulation {
     /// Starts the clock of a machine. `has_others` says whether the program has threads but the
     /// one that calls it; if not, it need not wait for its turn.
-    ///
-    /// # Errors
-    /// If the wall clock's thread cannot be started.
+    /// Errors: if the wall clock's thread cannot be started.
     pub fn new(machine: Machine, clock: Clock, has_others: fn() -> bool) -> io::Result<Self> {
         let shared = Arc::new(Shared::new(machine));
         let (acts, clock) = started(&shared, None, clock, has_others)?;
@@ -128,9 +126,7 @@ impl Simulation {
     }
 
     /// The virtual clock, which begins at this moment, of a machine in another process.
-    ///
-    /// # Errors
-    /// None: as those of [`Simulation::new`].
+    /// Errors: none: as those of [`Simulation::new`].
     pub fn far(far: Box<dyn Far>, now: Duration, has_others: fn() -> bool) -> io::Result<Self> {
         let machine = Machine::bare().map_err(io::Error::other)?;
         let simulation = Self::new(machine, Clock::Virtual, has_others)?;
@@ -140,10 +136,8 @@ impl Simulation {
 
     /// The same for several robots, which come into the world of the first one. They have one time.
     /// Each has a processor of its own: an access to a file takes the time of its own program only.
-    ///
-    /// # Errors
-    /// The outer one if the wall clock's thread cannot be started; the inner one names the robot,
-    /// by its index, that stands where another one does, or something else.
+    /// Errors: the outer one if the wall clock's thread cannot be started; the inner one names the
+    /// robot, by its index, that stands where another one does, or something else.
     pub fn crowd(
         mut machines: Vec<Machine>,
         clock: Clock,

@@ -54,9 +54,7 @@ pub struct Line {
 
 impl Line {
     /// Connects to the socket of this path; also the time there.
-    ///
-    /// # Errors
-    /// The system's; `InvalidData` if nobody speaks so there.
+    /// Errors: the system's; `InvalidData` if nobody speaks so there.
     pub fn connect(path: &Path, lost: fn()) -> io::Result<(Line, Duration)> {
         Line::new(UnixStream::connect(path)?, lost)
     }

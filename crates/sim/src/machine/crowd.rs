@@ -28,9 +28,7 @@ pub fn robot_of(id: ItemId) -> Option<usize> {
 pub type Misplaced = (usize, SpecError);
 
 /// Puts robots, each in a machine of its own at the same moment, into the world of the first one.
-///
-/// # Errors
-/// Names the robot, by its index, that stands where another one does, or something else.
+/// Errors: names the robot, by its index, that stands where another one does, or something else.
 pub(crate) fn join(machines: &mut [Machine]) -> Result<(), Misplaced> {
     let mut machines: Vec<_> = machines.iter_mut().collect();
     for (index, machine) in machines.iter_mut().enumerate() {

@@ -17,9 +17,7 @@ pub struct Descriptor {
 
 impl Descriptor {
     /// Opens an attribute by its path below the class directory.
-    ///
-    /// # Errors
-    /// ENOENT, ENOTDIR, EISDIR; EACCES for what the attribute cannot do.
+    /// Errors: ENOENT, ENOTDIR, EISDIR; EACCES for what the attribute cannot do.
     pub fn open(machine: &Machine, path: &str, access: Access) -> Result<Descriptor, Errno> {
         machine.open(path, access).map(Descriptor::new)
     }
@@ -37,9 +35,7 @@ impl Descriptor {
     /// Reads from an offset. Where the last read ended this gives the rest of its text, 0 bytes
     /// at its end. At any other offset, and at 0, the driver makes a new text. A binary attribute
     /// is read again at each offset.
-    ///
-    /// # Errors
-    /// ENODEV after an unplug; what the driver answers.
+    /// Errors: ENODEV after an unplug; what the driver answers.
     pub fn pread(
         &mut self,
         machine: &mut Machine,
@@ -63,17 +59,13 @@ impl Descriptor {
     }
 
     /// Writes: one call of the driver with these bytes.
-    ///
-    /// # Errors
-    /// ENODEV after an unplug; what the driver answers.
+    /// Errors: ENODEV after an unplug; what the driver answers.
     pub fn write(&mut self, machine: &mut Machine, bytes: &[u8]) -> Result<Written, Errno> {
         self.pwrite(machine, 0, bytes)
     }
 
     /// Writes at an offset, which only a binary attribute looks at.
-    ///
-    /// # Errors
-    /// As [`Descriptor::write`]; EFBIG behind the end of a binary attribute.
+    /// Errors: as [`Descriptor::write`]; EFBIG behind the end of a binary attribute.
     pub fn pwrite(
         &mut self,
         machine: &mut Machine,

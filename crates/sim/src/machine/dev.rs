@@ -73,18 +73,14 @@ fn entries(directory: NodeId) -> Result<impl Iterator<Item = (&'static str, Node
 
 impl Machine {
     /// The node with this name in a directory below `/dev`, whose root is [`NodeId::ROOT`].
-    ///
-    /// # Errors
-    /// ENOENT; ENOTDIR.
+    /// Errors: ENOENT; ENOTDIR.
     pub fn dev_lookup(&self, directory: NodeId, name: &str) -> Result<NodeId, Errno> {
         let found = entries(directory)?.find(|(entry, _)| *entry == name);
         found.map(|(_, node)| node).ok_or(Errno::ENOENT)
     }
 
     /// The entries of a directory below `/dev`.
-    ///
-    /// # Errors
-    /// ENOTDIR.
+    /// Errors: ENOTDIR.
     pub fn dev_read_dir(&self, directory: NodeId) -> Result<Vec<Entry>, Errno> {
         let entry = |(name, node): (&str, NodeId)| {
             kind(node).map(|kind| Entry { name: name.to_owned(), node, kind })
@@ -93,9 +89,7 @@ impl Machine {
     }
 
     /// Kind, permission bits and size of a node below `/dev`. Only the screen has a size.
-    ///
-    /// # Errors
-    /// ENOENT if there is no such node.
+    /// Errors: ENOENT if there is no such node.
     pub fn dev_stat(&self, node: NodeId) -> Result<Stat, Errno> {
         let kind = kind(node)?;
         let (mode, size) = match (kind, node.0) {
@@ -119,9 +113,7 @@ pub struct DevDescriptor {
 
 impl DevDescriptor {
     /// Opens a device by its path below `/dev`.
-    ///
-    /// # Errors
-    /// ENOENT, ENOTDIR, EISDIR.
+    /// Errors: ENOENT, ENOTDIR, EISDIR.
     pub fn open(machine: &Machine, path: &str) -> Result<DevDescriptor, Errno> {
         let mut parts = path.split('/').filter(|part| !part.is_empty());
         let node = parts.try_fold(NodeId::ROOT, |node, part| machine.dev_lookup(node, part))?;
@@ -129,9 +121,7 @@ impl DevDescriptor {
     }
 
     /// Opens a node.
-    ///
-    /// # Errors
-    /// EISDIR.
+    /// Errors: EISDIR.
     pub fn open_node(machine: &Machine, node: NodeId) -> Result<DevDescriptor, Errno> {
         let device = match node.0 {
             KEYS => Device::Keys,
@@ -148,9 +138,7 @@ impl DevDescriptor {
     }
 
     /// Reads: the next events, or the screen from an offset on.
-    ///
-    /// # Errors
-    /// EAGAIN if there is no event, EINVAL if the buffer has no room for one.
+    /// Errors: EAGAIN if there is no event, EINVAL if the buffer has no room for one.
     pub fn read(
         &mut self,
         machine: &Machine,
@@ -202,9 +190,7 @@ impl DevDescriptor {
     }
 
     /// Writes: events, or the screen from an offset on; how many bytes were taken.
-    ///
-    /// # Errors
-    /// EINVAL for less than one event, ENOSPC and EFBIG beyond the end of the screen.
+    /// Errors: EINVAL for less than one event, ENOSPC and EFBIG beyond the end of the screen.
     pub fn write(
         &self,
         machine: &mut Machine,
@@ -239,9 +225,7 @@ impl DevDescriptor {
 
     /// The answer to an ioctl: its result, and the bytes for the caller. This serves the ioctls
     /// that describe an event device; their numbers hold their size.
-    ///
-    /// # Errors
-    /// ENOTTY for a device that has none, EINVAL for one that is not served.
+    /// Errors: ENOTTY for a device that has none, EINVAL for one that is not served.
     pub fn ioctl(&self, machine: &Machine, command: u32) -> Result<(i32, Vec<u8>), Errno> {
         /// The clock of events.
         const EVIOCSCLOCKID: u32 = 1 << 30 | 4 << 16 | (b'E' as u32) << 8 | 0xa0;

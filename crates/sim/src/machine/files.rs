@@ -19,33 +19,25 @@ const SPARE_MOUNT: Pose = Pose::new(0.0, 7.0, 0.0);
 
 impl Machine {
     /// The node at a path below the class directory; the empty path is that directory.
-    ///
-    /// # Errors
-    /// ENOENT; ENOTDIR where the path goes on behind a file.
+    /// Errors: ENOENT; ENOTDIR where the path goes on behind a file.
     pub fn resolve(&self, path: &str) -> Result<NodeId, Errno> {
         self.tree.resolve(path)
     }
 
     /// The node with this name in a directory.
-    ///
-    /// # Errors
-    /// ENOENT; ENOTDIR; ENODEV if the directory's device is gone.
+    /// Errors: ENOENT; ENOTDIR; ENODEV if the directory's device is gone.
     pub fn lookup(&self, directory: NodeId, name: &str) -> Result<NodeId, Errno> {
         self.tree.lookup(directory, name)
     }
 
     /// The entries of a directory.
-    ///
-    /// # Errors
-    /// ENOTDIR; ENODEV if its device is gone.
+    /// Errors: ENOTDIR; ENODEV if its device is gone.
     pub fn read_dir(&self, directory: NodeId) -> Result<Vec<Entry>, Errno> {
         self.tree.list(directory)
     }
 
     /// The names in the directory of a path, with their nodes.
-    ///
-    /// # Errors
-    /// As [`Machine::resolve`] and [`Machine::read_dir`].
+    /// Errors: as [`Machine::resolve`] and [`Machine::read_dir`].
     pub(crate) fn list(&self, path: &str) -> Result<Vec<(String, NodeId)>, Errno> {
         let entries = self.read_dir(self.resolve(path)?)?;
         Ok(entries.into_iter().map(|entry| (entry.name, entry.node)).collect())
@@ -62,10 +54,8 @@ impl Machine {
     }
 
     /// Opens an attribute, as `open(2)` checks it.
-    ///
-    /// # Errors
-    /// ENOENT, ENOTDIR, EISDIR; EACCES for what the attribute cannot do, and for writing while
-    /// udev has not yet opened the files of a new device.
+    /// Errors: ENOENT, ENOTDIR, EISDIR; EACCES for what the attribute cannot do, and for writing
+    /// while udev has not yet opened the files of a new device.
     pub fn open(&self, path: &str, access: Access) -> Result<NodeId, Errno> {
         let node = self.tree.resolve(path)?;
         self.open_node(node, access).map(|()| node)
@@ -83,9 +73,7 @@ impl Machine {
 
     /// Reads an attribute: its driver is called and makes a new text. A [`Descriptor`] decides
     /// which part of it a `pread` gets.
-    ///
-    /// # Errors
-    /// ENODEV if its device is gone; EACCES if it cannot be read; what the driver answers.
+    /// Errors: ENODEV if its device is gone; EACCES if it cannot be read; what the driver answers.
     pub fn read(&mut self, node: NodeId) -> Result<Vec<u8>, Errno> {
         let measured = self.tree.measured(node);
         if measured {
@@ -116,17 +104,14 @@ impl Machine {
     }
 
     /// Writes an attribute: one call of its driver with these bytes.
-    ///
-    /// # Errors
-    /// ENODEV if its device is gone; EACCES if it cannot be written; what the driver answers.
+    /// Errors: ENODEV if its device is gone; EACCES if it cannot be written; what the driver
+    /// answers.
     pub fn write(&mut self, node: NodeId, bytes: &[u8]) -> Result<Written, Errno> {
         self.write_at(node, 0, bytes)
     }
 
     /// Writes from an offset on, which only a binary attribute looks at.
-    ///
-    /// # Errors
-    /// As [`Machine::write`]; EFBIG behind the end of a binary attribute.
+    /// Errors: as [`Machine::write`]; EFBIG behind the end of a binary attribute.
     pub fn write_at(
         &mut self,
         node: NodeId,
@@ -185,26 +170,20 @@ impl Machine {
 
     /// How often an attribute has notified those who poll it. Only `state` of tacho motors and
     /// `value0` of touch sensors ever do.
-    ///
-    /// # Errors
-    /// ENODEV if its device is gone: then poll returns at once.
+    /// Errors: ENODEV if its device is gone: then poll returns at once.
     pub fn event_count(&self, node: NodeId) -> Result<u32, Errno> {
         self.tree.events(node)
     }
 
     /// Opens, reads and closes: for tests and small tools.
-    ///
-    /// # Errors
-    /// As [`Machine::open`] and [`Machine::read`].
+    /// Errors: as [`Machine::open`] and [`Machine::read`].
     pub fn read_path(&mut self, path: &str) -> Result<String, Errno> {
         let node = self.open(path, Access::ReadOnly)?;
         self.read(node).map(|text| String::from_utf8_lossy(&text).into_owned())
     }
 
     /// Opens, writes and closes: for tests and small tools.
-    ///
-    /// # Errors
-    /// As [`Machine::open`] and [`Machine::write`].
+    /// Errors: as [`Machine::open`] and [`Machine::write`].
     pub fn write_path(&mut self, path: &str, text: &str) -> Result<Written, Errno> {
         let node = self.open(path, Access::WriteOnly)?;
         Descriptor::new(node).write(self, text.as_bytes())

@@ -110,9 +110,8 @@ impl Machine {
     }
 
     /// Boots a brick with everything plugged in, standing at the start of the world.
-    ///
-    /// # Errors
-    /// Names what is impossible in the world or the robot, or that the start is inside something.
+    /// Errors: names what is impossible in the world or the robot, or that the start is inside
+    /// something.
     pub fn new(
         world: &WorldSpec,
         robot: &RobotSpec,
@@ -189,9 +188,7 @@ impl Machine {
     }
 
     /// Lifts the robot to another place, where it stands still. Its gyro does not notice.
-    ///
-    /// # Errors
-    /// If something is in the way there, or the world ends before.
+    /// Errors: if something is in the way there, or the world ends before.
     pub fn place(&mut self, pose: Pose) -> Result<(), SpecError> {
         if !pose.is_in_range() {
             return Err(SpecError::new("robot", OUT_OF_RANGE));
@@ -258,9 +255,7 @@ impl Machine {
     }
 
     /// Puts something into the world.
-    ///
-    /// # Errors
-    /// If the item is impossible, or the robot is where it should stand.
+    /// Errors: if the item is impossible, or the robot is where it should stand.
     pub fn add_item(&mut self, item: Item) -> Result<ItemId, SpecError> {
         let name = item.to_string();
         let scene = Arc::make_mut(&mut self.scene);
@@ -290,9 +285,7 @@ impl Machine {
 
     /// Moves an item to another place, and turns it to a heading if one is given; `false` if there
     /// is no such item, or it has no single place.
-    ///
-    /// # Errors
-    /// If the place is impossible, or the robot is there. Then nothing moves.
+    /// Errors: if the place is impossible, or the robot is there. Then nothing moves.
     pub fn move_item(
         &mut self,
         id: ItemId,
@@ -319,10 +312,8 @@ impl Machine {
 
     /// Holds down these buttons of a remote control on a channel from 1 to 4, and no others, until
     /// the next call. Wherever the robot is, its infrared sensors hear it.
-    ///
-    /// # Errors
-    /// If there is no such channel, or these look like others: any single one is clear, and any two
-    /// but the beacon's.
+    /// Errors: if there is no such channel, or these look like others: any single one is clear, and
+    /// any two but the beacon's.
     pub fn hold_buttons(&mut self, channel: u8, buttons: &[RemoteButton]) -> Result<(), SpecError> {
         let item = || format!("remote control on channel {channel}");
         let index = usize::from(channel).wrapping_sub(1);

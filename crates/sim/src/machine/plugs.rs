@@ -25,9 +25,7 @@ const NXT_TOUCH: &str = "lego-nxt-touch";
 impl Machine {
     /// Plugs a motor or sensor in, by its driver's name. A motor on the port of a wheel drives
     /// that wheel. The device gets a new number.
-    ///
-    /// # Errors
-    /// If no such thing fits the port.
+    /// Errors: if no such thing fits the port.
     pub fn plug(&mut self, port: Port, driver: &str) -> Result<(), SpecError> {
         let plug = Plug::named(driver, port).ok_or_else(|| {
             let alike = if port.is_output() { motors_alike(driver) } else { sensors_alike(driver) };
@@ -260,19 +258,16 @@ impl Machine {
     /// Makes an attribute of the device at a port show a text in place of its own, until
     /// [`Machine::unshow`] or until it is unplugged. The attribute accepts writes as usual. Only
     /// that file changes: a sensor whose `value0` is shown has its own `bin_data`.
-    ///
-    /// # Errors
-    /// ENODEV without a device, ENOENT without such an attribute, EACCES if it cannot be read,
-    /// EINVAL for more text than fits a page.
+    /// Errors: ENODEV without a device, ENOENT without such an attribute, EACCES if it cannot be
+    /// read, EINVAL for more text than fits a page.
     pub fn show(&mut self, port: Port, attribute: &str, text: &str) -> Result<(), Errno> {
         let serial = self.sockets[port as usize].device.ok_or(Errno::ENODEV)?;
         self.tree.show(serial, attribute, Some(text)).map(drop)
     }
 
     /// Ends what [`Machine::show`] began; false if it did not.
-    ///
-    /// # Errors
-    /// ENODEV without a device, ENOENT without such an attribute, EACCES if it cannot be read.
+    /// Errors: ENODEV without a device, ENOENT without such an attribute, EACCES if it cannot be
+    /// read.
     pub fn unshow(&mut self, port: Port, attribute: &str) -> Result<bool, Errno> {
         let serial = self.sockets[port as usize].device.ok_or(Errno::ENODEV)?;
         self.tree.show(serial, attribute, None)

@@ -244,9 +244,7 @@ impl Item {
     }
 
     /// Checks the numbers.
-    ///
-    /// # Errors
-    /// Names the item and what is impossible about it.
+    /// Errors: names the item and what is impossible about it.
     pub fn validate(&self) -> Result<(), SpecError> {
         let fault = match self {
             Item::Wall { from, to, thickness } => first_fault([

@@ -37,9 +37,7 @@ pub struct Drawing {
 
 impl Drawing {
     /// Reads a drawing, a character for each cell, from above.
-    ///
-    /// # Errors
-    /// An unknown character or a second start, by row and column from 1.
+    /// Errors: an unknown character or a second start, by row and column from 1.
     pub fn read<S: AsRef<str>>(rows: &[S]) -> Result<Drawing, SpecError> {
         let rows: Vec<Vec<char>> = rows.iter().map(|row| row.as_ref().chars().collect()).collect();
         let mut start = None;
@@ -84,9 +82,7 @@ impl Drawing {
 
     /// The same as a part of a world, with cells of `size` cm; the lower left corner of the last
     /// row is the origin.
-    ///
-    /// # Errors
-    /// Cells without size.
+    /// Errors: Cells without size.
     pub fn drawn(&self, size: f64) -> Result<Drawn, SpecError> {
         if !(is_in_range(size) && size > 0.0) {
             return Err(SpecError::new("cell", "needs a size above 0"));
@@ -124,9 +120,7 @@ pub struct Drawn {
 
 impl WorldSpec {
     /// The world that a text draws, a line for each row.
-    ///
-    /// # Errors
-    /// As [`Drawing::read`] and [`Drawing::drawn`].
+    /// Errors: as [`Drawing::read`] and [`Drawing::drawn`].
     pub fn from_map(map: &str, cell: f64) -> Result<WorldSpec, SpecError> {
         let rows: Vec<&str> = map.trim_matches('\n').lines().collect();
         let Drawn { items, start } = Drawing::read(&rows)?.drawn(cell)?;

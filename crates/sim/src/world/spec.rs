@@ -9,9 +9,7 @@ const ABSOLUTE_ZERO: f64 = -273.15;
 const HOTTEST: f64 = 1000.0;
 
 /// Checks the corners of the walls around a world.
-///
-/// # Errors
-/// If they have no inside.
+/// Errors: if they have no inside.
 pub fn check_bounds(bounds: &Bounds) -> Result<(), SpecError> {
     if bounds.is_in_range() && bounds.has_inside() {
         return Ok(());
@@ -58,9 +56,7 @@ impl Default for WorldSpec {
 
 impl WorldSpec {
     /// The same for the robot of this name, which starts at its own place.
-    ///
-    /// # Errors
-    /// If it has none.
+    /// Errors: if it has none.
     pub fn seen_by(&self, name: &str) -> Result<WorldSpec, SpecError> {
         let Some((_, start)) = self.starts.iter().rev().find(|(other, _)| other == name) else {
             return Err(SpecError::new(format!("start({name}, X, Y, Heading)"), "is missing"));
@@ -69,9 +65,7 @@ impl WorldSpec {
     }
 
     /// Checks everything in it, and that the bounds have an inside with the start in it.
-    ///
-    /// # Errors
-    /// Names the first offending item.
+    /// Errors: names the first offending item.
     pub fn validate(&self) -> Result<(), SpecError> {
         for (index, item) in self.items.iter().enumerate() {
             item.validate().map_err(|error| error.in_part(Part::Item(index)))?;

@@ -16,9 +16,7 @@ use crate::sysfs::Sysfs;
 use std::path::{Path, PathBuf};
 
 /// Copies a frame to the screen; `None` if there is no screen of the EV3's.
-///
-/// # Errors
-/// The kernel's, as EACCES for a user who is not in the group `video`.
+/// Errors: the kernel's, as EACCES for a user who is not in the group `video`.
 pub fn show(tree: &dyn Sysfs, dev: &dyn Devfs, frame: &Frame) -> Result<Option<()>> {
     let path = path(dev);
     let Some(stream) = open(dev, &path, Access::Write)? else {
@@ -42,9 +40,7 @@ pub fn show(tree: &dyn Sysfs, dev: &dyn Devfs, frame: &Frame) -> Result<Option<(
 
 /// The picture on the screen, whichever program drew it: shades line by line, 0
 /// is black. `None` if there is no screen of the EV3's.
-///
-/// # Errors
-/// The kernel's; [`Error::Malformed`] where it is cut short.
+/// Errors: the kernel's; [`Error::Malformed`] where it is cut short.
 pub fn seen(tree: &dyn Sysfs, dev: &dyn Devfs) -> Result<Option<Vec<u8>>> {
     let path = path(dev);
     let Some(stream) = open(dev, &path, Access::Read)? else {

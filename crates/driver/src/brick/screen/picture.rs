@@ -20,9 +20,7 @@ pub struct Picture {
 impl Picture {
     /// Reads a PNG or a PBM file. Colors become shades of gray; what is more
     /// than half transparent is left out.
-    ///
-    /// # Errors
-    /// [`Error::Open`]; [`Error::Format`] for what is no such file, as an interlaced PNG.
+    /// Errors: [`Error::Open`]; [`Error::Format`] for what is no such file, as an interlaced PNG.
     pub fn read(path: &Path) -> Result<Self> {
         let mut bytes = Vec::new();
         let (file, _) = open_file(path, "png")?;
@@ -139,9 +137,7 @@ fn digit(rest: &mut &[u8]) -> Option<u8> {
 }
 
 /// Writes shades, line by line, to a PNG file.
-///
-/// # Errors
-/// [`Error::Open`].
+/// Errors: [`Error::Open`].
 pub fn write_png(path: &Path, width: u32, height: u32, shades: &[u8]) -> Result<()> {
     let written = std::fs::write(path, to_png(width, height, shades));
     written.map_err(|source| Error::Open { path: path.to_owned(), access: Access::Write, source })
