@@ -160,9 +160,9 @@ def compared(files, papers):
     yield "docs/view-protocol.md, lines", "what private/view hears", lines - {"max"}, heard
     yield "what the page sends", "what private/view hears", None, (
         words("prolog/ev3dev/view/", files, r"send\(['`\"]([a-z]+)"), heard)
-    kept = re.search(r"KEPT = \[([^\]]*)\]", files["prolog/ev3dev/view/model.js"])[1]
-    yield "docs/view-protocol.md", "KEPT of model.js", None, (
-        set(re.findall(r"\w+", kept)), set(re.findall(r"`(\w+)`", page)))
+    kept = words(view, files, r"view_keep_\((\w+),") | words("src/view/", files, r'\.keep\("(\w+)"')
+    yield "docs/view-protocol.md", "what is kept in frames", None, (
+        {name for name in kept if name[0].islower()}, set(re.findall(r"`(\w+)`", page)))
     for kind in ("worlds", "robots"):
         yield "docs/worlds.md", kind, None, (
             stems(f"prolog/ev3dev/{kind}/", files), set(re.findall(r"`?(\w+)", papers["docs/worlds.md"])))

@@ -5,7 +5,7 @@
 
 /** <module> Planners to compare
 
-Ten planners for one kind of problem: a robot on a grid, or any puzzle whose
+Planners for one kind of problem: a robot on a grid, or any puzzle whose
 states are Prolog terms. library(ev3dev/planners) offers
 
   - planners by their names, to solve a problem and to solve it again after a

@@ -39,6 +39,7 @@
 :- use_module(trees/simulated).
 :- use_module(library(error)).
 :- use_module(library(lists)).
+:- use_module(library(readutil)).
 
 /** <module> The same test over three trees of devices
 
@@ -77,6 +78,7 @@ where the kernel refuses it.
     warnings(0, -).
 
 :- dynamic
+    known_bus/2,                        % Type, Address
     entered/1,                          % Tree
     root/1,                             % Directory
     devices/1,                          % Devices
@@ -287,17 +289,20 @@ tell_port(Tree, Type) :-
 
 %!  sensor_bus(?Type, ?Address) is nondet.
 %
-%   Some that are on the I2C bus, and where.
+%   Those that are on the I2C bus, and where, by the paper about the kernel.
 
-sensor_bus('lego-nxt-us',        i2c1).
-sensor_bus('lego-nxt-temp',      i2c76).
-sensor_bus('lego-power-storage', i2c2).
-sensor_bus('ht-nxt-compass',     i2c1).
-sensor_bus('ht-nxt-color',       i2c1).
-sensor_bus('ht-nxt-color-v2',    i2c1).
-sensor_bus('ht-nxt-ir-seek-v2',  i2c8).
-sensor_bus('ht-nxt-accel',       i2c1).
-sensor_bus('ms-absolute-imu',    i2c17).
+sensor_bus(Type, Address) :-
+    (   known_bus(_, _)
+    ->  true
+    ;   read_file_to_string('docs/ev3dev-sysfs.md', Text, []),
+        split_string(Text, "\n", "", Rows),
+        forall(( member(Row, Rows), string_concat("| `", Cells, Row),
+                 split_string(Cells, "`", "", [Name|_]),
+                 split_string(Name, ":", "", [Of, At]) ),
+               ( atom_string(Known, Of), atom_string(Bus, At),
+                 assertz(known_bus(Known, Bus)) ))
+    ),
+    known_bus(Type, Address).
 
 %!  equip(+Tree, +Devices)
 %

@@ -6,7 +6,7 @@ import { Charts } from './charts.js';
 import { Editor } from './editor.js';
 import { Hands } from './controls.js';
 import { Log } from './log.js';
-import { KEPT, Model } from './model.js';
+import { ALL, Model } from './model.js';
 import { Panels } from './panels.js';
 import { Ports } from './ports.js';
 import { Program } from './program.js';
@@ -90,7 +90,7 @@ function frame(next) {
 /** Another moment of the run, or now again. */
 function show(moment) {
   if (editor.open) return;
-  for (const scene of scenes) scene.take(moment, new Set(KEPT));
+  for (const scene of scenes) scene.take(moment, ALL);
   world.show(moment);
 }
 

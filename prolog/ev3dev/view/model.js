@@ -1,7 +1,11 @@
 // What the page knows: the latest frame, what is kept between frames, and
 // the samples since the simulation began.
 
-export const KEPT = ['name', 'world', 'spec', 'screen', 'watches', 'path', 'grid', 'belief', 'localized', 'map', 'snapshots', 'plugs', 'active', 'loaded', 'bricks'];
+/** What each frame has, or adds to what was there. All other keys are kept between frames. */
+const PASSING = new Set(['type', 'have', 'new', 'rate', 'source', 'tree', 'goals', 'clock', 'program', 'robot', 'see', 'beams', 'others', 'ports', 'brick', 'samples', 'values', 'log']);
+
+/** All kept keys have come. */
+export const ALL = { has: () => true };
 const MOST_SAMPLES = 24000;
 const MOST_LOG = 500;
 
@@ -9,13 +13,14 @@ export class Model {
   constructor() {
     this.frame = null;
     this.count = 0;
+    this.kept = new Set();
     this.forget();
   }
 
   /** Another simulation, or another time of it. */
   forget() {
     this.age = (this.age ?? 0) + 1;
-    for (const name of KEPT) this[name] = null;
+    for (const name of this.kept) this[name] = null;
     this.samples = { time: [], columns: new Map(), units: new Map() };
     this.values = new Map();
     this.log = [];
@@ -25,12 +30,10 @@ export class Model {
   /** Takes a frame; answers which kept keys came with it. */
   take(frame) {
     if (frame.new) this.forget();
-    const came = new Set(frame.new ? KEPT : []);
-    for (const name of KEPT) {
-      if (name in frame) {
-        this[name] = frame[name];
-        came.add(name);
-      }
+    const names = Object.keys(frame).filter((name) => !PASSING.has(name));
+    for (const name of names) {
+      this[name] = frame[name];
+      this.kept.add(name);
     }
     // Nobody knows the world of a real robot.
     if (frame.source !== 'sim') this.world = this.name = null;
@@ -43,7 +46,7 @@ export class Model {
       this.log.push(...this.fresh);
       this.log.splice(0, Math.max(0, this.log.length - MOST_LOG));
     }
-    return came;
+    return frame.new ? ALL : new Set(names);
   }
 
   get newest() {

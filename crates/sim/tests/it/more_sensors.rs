@@ -60,8 +60,11 @@ fn bytes(desk: &mut Desk) -> Vec<u8> {
 
 #[test]
 fn every_mode_says_what_the_sheet_says() {
-    for row in include_str!("sheet.txt").lines() {
-        let (name, modes) = row.split_once(' ').unwrap();
+    let (_, section) =
+        include_str!("../../../../docs/ev3dev-sysfs.md").split_once("### 5.5").unwrap();
+    for row in section.split("---\n").next().unwrap().lines().filter(|row| row.starts_with("| `")) {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let (name, modes) = (cells[1].trim_matches('`'), cells[2]);
         let (driver, bus) = name.split_once(':').map_or((name, ""), |(driver, bus)| (driver, bus));
         let mut desk = desk(driver, vec![]);
         let address = if bus.is_empty() { String::new() } else { format!(":{bus}") };
@@ -71,7 +74,7 @@ fn every_mode_says_what_the_sheet_says() {
         let has_version = !bus.is_empty() && driver != "lego-nxt-temp";
         assert_eq!(get(&mut desk, "fw_version"), if has_version { "V1.0" } else { "" });
         let modes: Vec<Vec<&str>> =
-            modes.split('|').map(|mode| mode.split_whitespace().collect()).collect();
+            modes.split(';').map(|mode| mode.split_whitespace().collect()).collect();
         let names: Vec<&str> = modes.iter().map(|mode| mode[0]).collect();
         assert_eq!(get(&mut desk, "modes"), names.join(" "));
         assert_eq!(get(&mut desk, "mode"), names[0], "the first is the default");
