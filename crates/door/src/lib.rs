@@ -68,8 +68,7 @@ pub struct Door {
 }
 
 impl Door {
-    /// Serves a site from now on.
-    /// Errors: the kernel's, if the port cannot be had.
+    /// Serves a site from now on. Errors: the kernel's, if the port cannot be had.
     pub fn open(mut site: Site) -> io::Result<Self> {
         let address = if site.any { Ipv4Addr::UNSPECIFIED } else { Ipv4Addr::LOCALHOST };
         let listener = TcpListener::bind((address, site.port))?;

@@ -11,9 +11,8 @@ use crate::error::{Interrupted, Result};
 use crate::value::{Value, holds_integer, integer};
 use crate::{motor, sensor};
 
-/// Reads an attribute; `None` where the device is gone.
-/// Errors: the kernel's, as EACCES for an attribute that can only be written;
-/// [`Error::Malformed`](crate::Error::Malformed).
+/// Reads an attribute; `None` where the device is gone. Errors: the kernel's, as EACCES for an
+/// attribute that can only be written; [`Error::Malformed`](crate::Error::Malformed).
 pub fn read(registry: &Registry, device: &Device, name: &str) -> Result<Option<Value>> {
     registry.read(device, |device| value(device, name))
 }

@@ -43,8 +43,7 @@ pub trait Devfs: Send + Sync {
 
 /// An open device.
 pub trait Stream: Send + Sync {
-    /// Reads what comes next.
-    /// Errors: EAGAIN if there is nothing yet, else the kernel's.
+    /// Reads what comes next. Errors: EAGAIN if there is nothing yet, else the kernel's.
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize>;
 
     /// Writes behind what was written before.

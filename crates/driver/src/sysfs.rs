@@ -39,9 +39,8 @@ pub trait Sysfs: Send + Sync {
     /// Errors: the kernel's, as EACCES where the attribute cannot be accessed so.
     fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn AttributeFile>>;
 
-    /// The paths that match a shell pattern (`*`, `?`, `[...]`, `**`), sorted.
-    /// A pattern below `/sys/class` matches in this tree.
-    /// Errors: [`Error::Pattern`].
+    /// The paths that match a shell pattern (`*`, `?`, `[...]`, `**`), sorted. A pattern below
+    /// `/sys/class` matches in this tree. Errors: [`Error::Pattern`].
     fn matching(&self, pattern: &str) -> Result<Vec<PathBuf>>;
 
     /// The time since some fixed moment.
@@ -90,8 +89,7 @@ pub trait Sysfs: Send + Sync {
         spawned.map(drop)
     }
 
-    /// The same, if there are no threads: only a simulated tree can do so.
-    /// Errors: ENOSYS
+    /// The same, if there are no threads: only a simulated tree can do so. Errors: ENOSYS
     #[cfg(not(unix))]
     fn every(&self, _period: Duration, _act: Repeated) -> io::Result<()> {
         Err(Errno::NOSYS.into())
@@ -139,8 +137,7 @@ pub trait AttributeFile: Send + Sync {
     /// Errors: the driver's, as ENODEV once the device is unplugged.
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize>;
 
-    /// Writes one value.
-    /// Errors: the driver's, as EINVAL for a value it does not accept.
+    /// Writes one value. Errors: the driver's, as EINVAL for a value it does not accept.
     fn write(&self, text: &[u8]) -> io::Result<()>;
 
     /// Reads a file that is not a text, from an offset on.

@@ -34,8 +34,7 @@ pub trait Wait {
     /// The result at the end.
     type End;
 
-    /// Whether it is over.
-    /// Errors: those of what is waited for.
+    /// Whether it is over. Errors: those of what is waited for.
     fn look(&mut self) -> Result<Look<Self::End>>;
 
     /// Lets time pass until `end`, or for less. `false` as for
@@ -81,8 +80,7 @@ impl<W: Wait> Slices<W> {
     }
 
     /// Looks, and lets time pass, until `latest` at most. The end of the wait, or `None`: then the
-    /// caller handles signals, and calls again.
-    /// Errors: as [`Wait::look`] and [`Wait::pause`].
+    /// caller handles signals, and calls again. Errors: as [`Wait::look`] and [`Wait::pause`].
     pub fn slice(&mut self, latest: Option<Duration>) -> Result<Option<W::End>> {
         let end = match self.pausing {
             Some(end) => end,
@@ -110,8 +108,7 @@ impl<W: Wait> Slices<W> {
         Ok(look)
     }
 
-    /// Waits to the end.
-    /// Errors: as [`slice`](Self::slice); [`Error::Interrupted`].
+    /// Waits to the end. Errors: as [`slice`](Self::slice); [`Error::Interrupted`].
     pub fn block(mut self, interrupted: Interrupted) -> Result<W::End> {
         while !interrupted() {
             if let Some(end) = self.slice(None)? {

@@ -63,8 +63,7 @@ impl Obstacle {
         Ok(Obstacle(Shape::Polygon(corners)))
     }
 
-    /// A box by its middle; the depth is along its heading.
-    /// Errors: if it has no size.
+    /// A box by its middle; the depth is along its heading. Errors: if it has no size.
     pub fn rectangle(
         middle: Point,
         width: f64,
@@ -79,8 +78,7 @@ impl Obstacle {
         Self::polygon(corners.map(|corner| point(vec2(middle) + corner)).to_vec())
     }
 
-    /// A wall from a point to another.
-    /// Errors: if it has no length or thickness.
+    /// A wall from a point to another. Errors: if it has no length or thickness.
     pub fn wall(from: Point, to: Point, thickness: f64) -> Result<Obstacle, Fault> {
         in_range(from.iter().chain(&to))?;
         positive(&[distance(from, to), thickness])?;
@@ -89,8 +87,7 @@ impl Obstacle {
         Self::polygon([from - aside, to - aside, to + aside, from + aside].map(point).to_vec())
     }
 
-    /// Something round.
-    /// Errors: if it has no size.
+    /// Something round. Errors: if it has no size.
     pub fn circle(center: Point, radius: f64) -> Result<Obstacle, Fault> {
         in_range(&center)?;
         positive(&[radius])?;
@@ -144,8 +141,7 @@ pub struct Map {
 }
 
 impl Map {
-    /// A map of these obstacles.
-    /// Errors: if the bounds have no inside.
+    /// A map of these obstacles. Errors: if the bounds have no inside.
     pub fn new(obstacles: Vec<Obstacle>, bounds: Option<Bounds>) -> Result<Map, Fault> {
         let mut map = Map { bounds, ..Map::default() };
         if let Some(bounds) = bounds {

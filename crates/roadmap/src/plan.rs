@@ -32,8 +32,7 @@ pub struct Solution {
     pub roadmap: Vec<[Point; 2]>,
 }
 
-/// Finds a way from a start to a goal.
-/// Errors: the reason why there is no path.
+/// Finds a way from a start to a goal. Errors: the reason why there is no path.
 pub fn plan(map: &Map, start: Point, goal: Point, options: &Options) -> Result<Solution, NoWay> {
     if !map.point_clear(start, options.keep) {
         return Err(NoWay::StartBlocked);

@@ -20,8 +20,7 @@ pub struct Kept(&'static Slot);
 
 impl Kept {
     /// Keeps the open `command` of a motor, which `word` stops; `None` if too many are kept
-    /// already.
-    /// Errors: the kernel's, if there is no descriptor left.
+    /// already. Errors: the kernel's, if there is no descriptor left.
     pub fn new(descriptor: c_int, path: &Path, word: &str) -> io::Result<Option<Self>> {
         let path = std::path::absolute(path)?;
         let path = path.as_os_str().as_bytes();

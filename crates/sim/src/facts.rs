@@ -275,8 +275,7 @@ impl WorldSpec {
 
 impl RobotSpec {
     /// The robot that facts describe. Later ones override earlier ones. Facts about worlds are
-    /// ignored.
-    /// Errors: names the first impossible part, else all parts that are missing.
+    /// ignored. Errors: names the first impossible part, else all parts that are missing.
     pub fn from_facts(facts: &[Fact]) -> Result<RobotSpec, SpecError> {
         let mut chassis = Chassis::default();
         let (mut motors, mut sensors): (Vec<MotorMount>, Vec<SensorMount>) = Default::default();

@@ -218,9 +218,8 @@ impl Light {
     }
 }
 
-/// Makes a light show a color, and removes its trigger. `None` if there is no
-/// such light, `false` if it cannot show that.
-/// Errors: the kernel's; [`Error::Interrupted`].
+/// Makes a light show a color, and removes its trigger. `None` if there is no such light, `false`
+/// if it cannot show that. Errors: the kernel's; [`Error::Interrupted`].
 pub fn set_color(
     registry: &Registry,
     name: &str,

@@ -146,9 +146,8 @@ pub fn set_device(
     wait_for(registry, find, interrupted).map(Some)
 }
 
-/// Waits until any device, or one of a certain type, is at a port and can be
-/// written; `false` if that takes too long.
-/// Errors: the kernel's; [`Error::Interrupted`].
+/// Waits until any device, or one of a certain type, is at a port and can be written; `false` if
+/// that takes too long. Errors: the kernel's; [`Error::Interrupted`].
 fn wait_for(
     registry: &Registry,
     find: impl Fn() -> Result<Option<Arc<Device>>>,

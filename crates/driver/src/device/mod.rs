@@ -384,9 +384,8 @@ impl Device {
         Ok(false)
     }
 
-    /// The text of an attribute.
-    /// Errors: [`Error::Malformed`] where it is not UTF-8 or is longer than a page, else the
-    /// kernel's.
+    /// The text of an attribute. Errors: [`Error::Malformed`] where it is not UTF-8 or is longer
+    /// than a page, else the kernel's.
     pub fn text(&self, attribute: &str) -> Result<String> {
         let attribute = self.attribute(attribute);
         let mut line = [0; LINE];
@@ -412,8 +411,7 @@ impl Device {
         look(text.strip_suffix(b"\n").unwrap_or(text), attribute.holds_integer)
     }
 
-    /// Writes an attribute.
-    /// Errors: the kernel's, as EINVAL for a value that is not accepted.
+    /// Writes an attribute. Errors: the kernel's, as EINVAL for a value that is not accepted.
     pub fn write(&self, attribute: &str, text: &str) -> Result<()> {
         self.attribute(attribute).write(self.tree(), text)?;
         self.written.note(attribute, text);

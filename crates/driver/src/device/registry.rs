@@ -189,8 +189,7 @@ impl Registry {
     }
 
     /// Calls `act`, and once more with a new listing if it met a device that answers as an
-    /// unplugged one does: a device that was plugged in again has another number.
-    /// Errors: as `act`.
+    /// unplugged one does: a device that was plugged in again has another number. Errors: as `act`.
     pub(crate) fn retry_after_relisting<T>(&self, mut act: impl FnMut() -> Result<T>) -> Result<T> {
         match act() {
             Err(error) if error.is_stale() => {

@@ -39,10 +39,9 @@ pub(crate) fn until_some<T>(
     }
 }
 
-/// Does something with devices, and repeats it while one of them is so new
-/// that udev has not opened its files yet. It must be harmless to repeat what
-/// `act` does before it opens the last of its files.
-/// Errors: as `act`; [`Error::Interrupted`].
+/// Does something with devices, and repeats it while one of them is so new that udev has not opened
+/// its files yet. It must be harmless to repeat what `act` does before it opens the last of its
+/// files. Errors: as `act`; [`Error::Interrupted`].
 pub(crate) fn while_permissions_settle<T>(
     registry: &Registry,
     interrupted: Interrupted,

@@ -189,9 +189,8 @@ impl Drive {
         }
     }
 
-    /// Begins a motion in the place of the one under way. `None` if a motor is
-    /// absent or the motion is impossible; then nothing has moved.
-    /// Errors: the kernel's; [`Error::Interrupted`].
+    /// Begins a motion in the place of the one under way. `None` if a motor is absent or the motion
+    /// is impossible; then nothing has moved. Errors: the kernel's; [`Error::Interrupted`].
     pub fn begin(
         &self,
         command: &Command,

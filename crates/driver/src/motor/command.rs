@@ -94,9 +94,8 @@ pub(crate) fn runs_on(motor: &Device) -> bool {
     matches!(end, Some(End::Never | End::Time(_)))
 }
 
-/// Stops a motor, in some way even if it does not have that action: the
-/// `BrickPi`'s motors cannot brake.
-/// Errors: the kernel's, as EINVAL for the action.
+/// Stops a motor, in some way even if it does not have that action: the `BrickPi`'s motors cannot
+/// brake. Errors: the kernel's, as EINVAL for the action.
 pub fn stop(motor: &Device, action: StopAction) -> Result<()> {
     let chosen = motor.write("stop_action", action.word());
     let stopped = start(motor, "stop", None);

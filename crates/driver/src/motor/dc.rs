@@ -21,9 +21,8 @@ use std::time::Duration;
 /// The longest `time_sp`, in milliseconds.
 const LONGEST_MS: i32 = 60_000;
 
-/// Runs a motor at a duty until it is stopped. `false` if it is absent or the
-/// percentage beyond 100; then nothing has moved.
-/// Errors: the kernel's; [`Interrupted`](crate::Error::Interrupted).
+/// Runs a motor at a duty until it is stopped. `false` if it is absent or the percentage beyond
+/// 100; then nothing has moved. Errors: the kernel's; [`Interrupted`](crate::Error::Interrupted).
 pub fn run_forever(
     registry: &Registry,
     port: &str,

@@ -143,10 +143,9 @@ pub fn stop_connected(registry: &Registry, interrupted: Interrupted) -> Result<(
     while_permissions_settle(registry, interrupted, stop_rest).and(listed)
 }
 
-/// Runs motors until they are stopped: the motors, or `None` if one is absent or cannot run
-/// at its speed; then nothing has moved.
-/// Errors: the kernel's. A motor that goes away while the others start stops them.
-/// [`Error::DuplicatePort`]; [`Interrupted`](Error::Interrupted).
+/// Runs motors until they are stopped: the motors, or `None` if one is absent or cannot run at its
+/// speed; then nothing has moved. Errors: the kernel's. A motor that goes away while the others
+/// start stops them. [`Error::DuplicatePort`]; [`Interrupted`](Error::Interrupted).
 pub fn run_forever(
     registry: &Registry,
     runs: &[Run],

@@ -44,8 +44,7 @@ pub enum Speed {
 
 impl Speed {
     /// Tacho counts per second, `floor(percent / 100 * max_speed)` of a percentage, or `None`
-    /// beyond what the motor accepts.
-    /// Errors: the kernel's, of reading `max_speed`.
+    /// beyond what the motor accepts. Errors: the kernel's, of reading `max_speed`.
     #[expect(
         clippy::cast_precision_loss,
         clippy::cast_possible_truncation,

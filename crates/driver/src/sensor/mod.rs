@@ -38,11 +38,10 @@ const RETRY_FOR: Duration = Duration::from_secs(2);
 pub(crate) const VALUES: [&str; 8] =
     ["value0", "value1", "value2", "value3", "value4", "value5", "value6", "value7"];
 
-/// Reads value `index` of a sensor in a mode, or in its present one, scaled by
-/// the sensor's decimals. `None` where the sensor is gone.
-/// Errors: [`Error::NoValue`] where the mode has no such value; the kernel's, as EINVAL for a mode
-/// the sensor does not have, and after two seconds of trying as ENXIO for a sensor that does not
-/// answer; [`Error::Interrupted`].
+/// Reads value `index` of a sensor in a mode, or in its present one, scaled by the sensor's
+/// decimals. `None` where the sensor is gone. Errors: [`Error::NoValue`] where the mode has no such
+/// value; the kernel's, as EINVAL for a mode the sensor does not have, and after two seconds of
+/// trying as ENXIO for a sensor that does not answer; [`Error::Interrupted`].
 pub fn read(
     registry: &Registry,
     sensor: &Arc<Device>,
@@ -171,9 +170,8 @@ pub(crate) fn read_value(sensor: &Device, mode: Option<&str>, index: usize) -> R
     Ok(Value::scaled(raw, decimals))
 }
 
-/// Reads value `index` as the file has it.
-/// Errors: [`Error::NoValue`] where the present mode has no such value; the kernel's, as ENXIO for
-/// a sensor that does not answer.
+/// Reads value `index` as the file has it. Errors: [`Error::NoValue`] where the present mode has no
+/// such value; the kernel's, as ENXIO for a sensor that does not answer.
 pub fn raw_value(sensor: &Device, index: usize) -> Result<i64> {
     let no_value = |mode: String| Error::NoValue { port: sensor.port().to_owned(), mode, index };
     let Some(attribute) = VALUES.get(index) else {

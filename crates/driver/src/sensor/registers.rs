@@ -34,9 +34,8 @@ pub fn read(
     })
 }
 
-/// Writes registers, at most 32, once: a sensor may act on what is written to it. `None`
-/// if there is no sensor.
-/// Errors: [`Error::NotOnBus`]; the bus's; [`Error::Interrupted`].
+/// Writes registers, at most 32, once: a sensor may act on what is written to it. `None` if there
+/// is no sensor. Errors: [`Error::NotOnBus`]; the bus's; [`Error::Interrupted`].
 pub fn write(
     registry: &Registry,
     port: &str,

@@ -180,8 +180,7 @@ pub struct Host {
 
 impl Host {
     /// Whether the time of a question can be right. The host then lets time pass until it, and has
-    /// the question answered.
-    /// Errors: why it cannot, in words.
+    /// the question answered. Errors: why it cannot, in words.
     pub fn admit(&mut self, question: &Question) -> Result<(), &'static str> {
         let begun = *self.begun.get_or_insert(question.at);
         let takes = if question.is_free { Duration::ZERO } else { question.kind.takes() };

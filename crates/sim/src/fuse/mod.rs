@@ -68,16 +68,14 @@ pub struct Mount {
 }
 
 impl Mount {
-    /// Mounts the tree of a machine on an existing directory, which then is what `/sys/class` is
-    /// on a brick.
-    /// Errors: [`MountError`] says what is missing.
+    /// Mounts the tree of a machine on an existing directory, which then is what `/sys/class` is on
+    /// a brick. Errors: [`MountError`] says what is missing.
     pub fn new(shared: Arc<Shared>, path: &Path) -> Result<Mount, MountError> {
         Mount::start::<Descriptor>(shared, path)
     }
 
     /// Mounts the devices of a machine on an existing directory, which then is what `/dev` is on a
-    /// brick.
-    /// Errors: [`MountError`] says what is missing.
+    /// brick. Errors: [`MountError`] says what is missing.
     pub fn dev(shared: Arc<Shared>, path: &Path) -> Result<Mount, MountError> {
         Mount::start::<DevDescriptor>(shared, path)
     }
@@ -119,10 +117,9 @@ impl Mount {
         &self.path
     }
 
-    /// Unmounts, and says whether that went well.
-    /// Errors: the error of the kernel, such as EBUSY; also
-    /// [`ResourceBusy`](io::ErrorKind::ResourceBusy) if the unmount happens only when the last open
-    /// file is closed.
+    /// Unmounts, and says whether that went well. Errors: the error of the kernel, such as EBUSY;
+    /// also [`ResourceBusy`](io::ErrorKind::ResourceBusy) if the unmount happens only when the last
+    /// open file is closed.
     pub fn unmount(mut self) -> io::Result<()> {
         self.end()
     }

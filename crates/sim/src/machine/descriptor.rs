@@ -32,10 +32,9 @@ impl Descriptor {
         self.node
     }
 
-    /// Reads from an offset. Where the last read ended this gives the rest of its text, 0 bytes
-    /// at its end. At any other offset, and at 0, the driver makes a new text. A binary attribute
-    /// is read again at each offset.
-    /// Errors: ENODEV after an unplug; what the driver answers.
+    /// Reads from an offset. Where the last read ended this gives the rest of its text, 0 bytes at
+    /// its end. At any other offset, and at 0, the driver makes a new text. A binary attribute is
+    /// read again at each offset. Errors: ENODEV after an unplug; what the driver answers.
     pub fn pread(
         &mut self,
         machine: &mut Machine,

@@ -79,8 +79,7 @@ impl Machine {
         found.map(|(_, node)| node).ok_or(Errno::ENOENT)
     }
 
-    /// The entries of a directory below `/dev`.
-    /// Errors: ENOTDIR.
+    /// The entries of a directory below `/dev`. Errors: ENOTDIR.
     pub fn dev_read_dir(&self, directory: NodeId) -> Result<Vec<Entry>, Errno> {
         let entry = |(name, node): (&str, NodeId)| {
             kind(node).map(|kind| Entry { name: name.to_owned(), node, kind })
@@ -112,16 +111,14 @@ pub struct DevDescriptor {
 }
 
 impl DevDescriptor {
-    /// Opens a device by its path below `/dev`.
-    /// Errors: ENOENT, ENOTDIR, EISDIR.
+    /// Opens a device by its path below `/dev`. Errors: ENOENT, ENOTDIR, EISDIR.
     pub fn open(machine: &Machine, path: &str) -> Result<DevDescriptor, Errno> {
         let mut parts = path.split('/').filter(|part| !part.is_empty());
         let node = parts.try_fold(NodeId::ROOT, |node, part| machine.dev_lookup(node, part))?;
         DevDescriptor::open_node(machine, node)
     }
 
-    /// Opens a node.
-    /// Errors: EISDIR.
+    /// Opens a node. Errors: EISDIR.
     pub fn open_node(machine: &Machine, node: NodeId) -> Result<DevDescriptor, Errno> {
         let device = match node.0 {
             KEYS => Device::Keys,

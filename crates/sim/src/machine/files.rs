@@ -30,8 +30,7 @@ impl Machine {
         self.tree.lookup(directory, name)
     }
 
-    /// The entries of a directory.
-    /// Errors: ENOTDIR; ENODEV if its device is gone.
+    /// The entries of a directory. Errors: ENOTDIR; ENODEV if its device is gone.
     pub fn read_dir(&self, directory: NodeId) -> Result<Vec<Entry>, Errno> {
         self.tree.list(directory)
     }
@@ -103,9 +102,8 @@ impl Machine {
         Ok(text.into_iter().skip(offset).take(count).collect())
     }
 
-    /// Writes an attribute: one call of its driver with these bytes.
-    /// Errors: ENODEV if its device is gone; EACCES if it cannot be written; what the driver
-    /// answers.
+    /// Writes an attribute: one call of its driver with these bytes. Errors: ENODEV if its device
+    /// is gone; EACCES if it cannot be written; what the driver answers.
     pub fn write(&mut self, node: NodeId, bytes: &[u8]) -> Result<Written, Errno> {
         self.write_at(node, 0, bytes)
     }

@@ -109,9 +109,8 @@ impl Machine {
         Machine::new(&WorldSpec::default(), &robot, Options::default())
     }
 
-    /// Boots a brick with everything plugged in, standing at the start of the world.
-    /// Errors: names what is impossible in the world or the robot, or that the start is inside
-    /// something.
+    /// Boots a brick with everything plugged in, standing at the start of the world. Errors: names
+    /// what is impossible in the world or the robot, or that the start is inside something.
     pub fn new(
         world: &WorldSpec,
         robot: &RobotSpec,

@@ -23,9 +23,8 @@ const I2C_PROBE: Duration = Duration::from_secs(1);
 const NXT_TOUCH: &str = "lego-nxt-touch";
 
 impl Machine {
-    /// Plugs a motor or sensor in, by its driver's name. A motor on the port of a wheel drives
-    /// that wheel. The device gets a new number.
-    /// Errors: if no such thing fits the port.
+    /// Plugs a motor or sensor in, by its driver's name. A motor on the port of a wheel drives that
+    /// wheel. The device gets a new number. Errors: if no such thing fits the port.
     pub fn plug(&mut self, port: Port, driver: &str) -> Result<(), SpecError> {
         let plug = Plug::named(driver, port).ok_or_else(|| {
             let alike = if port.is_output() { motors_alike(driver) } else { sensors_alike(driver) };
@@ -265,9 +264,8 @@ impl Machine {
         self.tree.show(serial, attribute, Some(text)).map(drop)
     }
 
-    /// Ends what [`Machine::show`] began; false if it did not.
-    /// Errors: ENODEV without a device, ENOENT without such an attribute, EACCES if it cannot be
-    /// read.
+    /// Ends what [`Machine::show`] began; false if it did not. Errors: ENODEV without a device,
+    /// ENOENT without such an attribute, EACCES if it cannot be read.
     pub fn unshow(&mut self, port: Port, attribute: &str) -> Result<bool, Errno> {
         let serial = self.sockets[port as usize].device.ok_or(Errno::ENODEV)?;
         self.tree.show(serial, attribute, None)

@@ -243,8 +243,7 @@ impl Item {
         Some(item)
     }
 
-    /// Checks the numbers.
-    /// Errors: names the item and what is impossible about it.
+    /// Checks the numbers. Errors: names the item and what is impossible about it.
     pub fn validate(&self) -> Result<(), SpecError> {
         let fault = match self {
             Item::Wall { from, to, thickness } => first_fault([

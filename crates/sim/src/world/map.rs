@@ -81,8 +81,7 @@ impl Drawing {
     }
 
     /// The same as a part of a world, with cells of `size` cm; the lower left corner of the last
-    /// row is the origin.
-    /// Errors: Cells without size.
+    /// row is the origin. Errors: Cells without size.
     pub fn drawn(&self, size: f64) -> Result<Drawn, SpecError> {
         if !(is_in_range(size) && size > 0.0) {
             return Err(SpecError::new("cell", "needs a size above 0"));

@@ -8,8 +8,7 @@ use ev3_motion::{Bounds, OUT_OF_RANGE, Pose};
 const ABSOLUTE_ZERO: f64 = -273.15;
 const HOTTEST: f64 = 1000.0;
 
-/// Checks the corners of the walls around a world.
-/// Errors: if they have no inside.
+/// Checks the corners of the walls around a world. Errors: if they have no inside.
 pub fn check_bounds(bounds: &Bounds) -> Result<(), SpecError> {
     if bounds.is_in_range() && bounds.has_inside() {
         return Ok(());
@@ -55,8 +54,7 @@ impl Default for WorldSpec {
 }
 
 impl WorldSpec {
-    /// The same for the robot of this name, which starts at its own place.
-    /// Errors: if it has none.
+    /// The same for the robot of this name, which starts at its own place. Errors: if it has none.
     pub fn seen_by(&self, name: &str) -> Result<WorldSpec, SpecError> {
         let Some((_, start)) = self.starts.iter().rev().find(|(other, _)| other == name) else {
             return Err(SpecError::new(format!("start({name}, X, Y, Heading)"), "is missing"));

@@ -136,8 +136,7 @@ fn digit(rest: &mut &[u8]) -> Option<u8> {
     }
 }
 
-/// Writes shades, line by line, to a PNG file.
-/// Errors: [`Error::Open`].
+/// Writes shades, line by line, to a PNG file. Errors: [`Error::Open`].
 pub fn write_png(path: &Path, width: u32, height: u32, shades: &[u8]) -> Result<()> {
     let written = std::fs::write(path, to_png(width, height, shades));
     written.map_err(|source| Error::Open { path: path.to_owned(), access: Access::Write, source })
