@@ -60,19 +60,12 @@ test(each_word_runs_in_the_simulator,
     ignore(event_cancel(_)).
 
 %   What the page leaves open, or the robot does not have.
-lacks(go_to(_, _)).
-lacks(navigate_to(_, _)).
-lacks(behave(_)).
-lacks(elapsed(_, _)).
-lacks(play(_)).
-lacks(screen_text(_, _, _)).
-lacks(sensor_values(_, _, _)).
-lacks(i2c_read(_, _, _, _)).
-lacks(i2c_write(_, _, _)).
-lacks(screen_image(_, _, _)).
-lacks(open(_, _, _)).
-lacks(format(_, _, _)).
-lacks(close(_)).
+lacks(Goal) :-
+    member(Goal,
+           [ go_to(_, _), navigate_to(_, _), behave(_), elapsed(_, _),
+             play(_), screen_text(_, _, _), sensor_values(_, _, _),
+             i2c_read(_, _, _, _), i2c_write(_, _, _), screen_image(_, _, _),
+             open(_, _, _), format(_, _, _), close(_) ]).
 :- end_tests(coming_from).
 
 :- begin_tests(ported).

@@ -192,23 +192,13 @@ usual(col_color(in2, _)).
 usual(( every(0.1, stop, [count(1)]), ignore(go_cm(20, 0)) )).
 
 %   A call of the robot before set_robot/4.
-early(go(20)).
-early(go(20, 90)).
-early(go_cm(20, 10)).
-early(turn(20)).
-early(turn(20, 90)).
-early(pose(_, _, _)).
-early(set_pose(0, 0, 0)).
-early(go_to(10, 10)).
-early(go_to(10, 10, 0)).
-early(face(90)).
-early(drive_cm(10, 0)).
-early(steer(20, 10)).
-early(arc(20, 10)).
-early(arc_cm(20, 10, 90)).
-early(set_grid([])).
-early(pose_uncertainty(_)).
-early(calibrate(axle, [], _)).
+early(Goal) :-
+    member(Goal,
+           [ go(20), go(20, 90), go_cm(20, 10), turn(20), turn(20, 90),
+             pose(_, _, _), set_pose(0, 0, 0), go_to(10, 10),
+             go_to(10, 10, 0), face(90), drive_cm(10, 0), steer(20, 10),
+             arc(20, 10), arc_cm(20, 10, 90), set_grid([]),
+             pose_uncertainty(_), calibrate(axle, [], _) ]).
 
 begins(Text, Start) :-
     sub_atom(Text, 0, _, _, Start).
