@@ -193,7 +193,7 @@ fn gap(root: &Path, count: u32) -> f64 {
     let mut gaps: Vec<f64> = (0..=count)
         .map(|_| {
             commands.lock().expect("one thread").clear();
-            assert!(run_forever(&devices, &runs, &mut || false).expect("two motors"));
+            assert!(run_forever(&devices, &runs, &mut || false).expect("two motors").is_some());
             let stamps = commands.lock().expect("one thread");
             stamps[1].duration_since(stamps[0]).as_secs_f64()
         })
@@ -207,7 +207,7 @@ fn gap(root: &Path, count: u32) -> f64 {
 fn journal(root: &Path, count: u32) -> f64 {
     let devices = Registry::new(Arc::new(SysfsDir::new(root)));
     let run = Run { port: "outB", speed: Speed::Percent(20.0) };
-    assert!(run_forever(&devices, &[run], &mut || false).expect("a motor"));
+    assert!(run_forever(&devices, &[run], &mut || false).expect("a motor").is_some());
     let act = devices.journal().entries().pop().expect("an entry").act;
     per_call(
         Box::new(move || devices.journal().note(devices.tree().now(), act.clone())),
