@@ -10,7 +10,7 @@ in brackets; each line is a layer, its folders or files, and, after an arrow,
 the layers it may import. Every file must be in a layer, and every name of the table must be there. The most specific name
 wins. A layer may always import itself. A section whose folder does not exist
 is an error, and so is a crate without a section, or a folder of private/ that
-no layer names. A predicate of natives! is short: it converts, calls, and unifies.
+no layer names, or layers that may import each other. A predicate of natives! is short: it converts, calls, and unifies.
 
     [crates/driver/src]
     ground   error.rs class.rs
@@ -274,6 +274,9 @@ def read_table(text):
             for other in allowed:
                 if other != "*" and other not in layers:
                     raise SystemExit(f"layers: {folder}: {layer} -> {other}, which is no layer")
+        allowed = [(layer, other) for layer, (_, others) in layers.items() for other in others if other != "*"]
+        for circle in circles(layers, allowed):
+            raise SystemExit(f"layers: {folder}: these may import each other: {' '.join(circle)}")
     return sections
 
 

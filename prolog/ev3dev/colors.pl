@@ -6,9 +6,12 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
+:- use_module(private/basics/fields, [fields/1, goal_expansion/2]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/run/brick).
 :- use_module(sensors, [col_rgb_raw/4]).
+
+:- fields(white(brick, port, red, green, blue)).
 
 /** <module> Colors
 
@@ -49,7 +52,7 @@ color(7, brown).
 :- multifile ev3dev_brick:forget/1.
 
 ev3dev_brick:forget(Brick) :-
-    retractall(white(Brick, _, _, _, _)).
+    retractall(white(brick: Brick)).
 
 %!  col_white(?Port) is semidet.
 %
@@ -63,7 +66,7 @@ col_white(Port) :-
     Blue > 0,
     !,
     brick(Brick),
-    retractall(white(Brick, Port, _, _, _)),
+    retractall(white(brick: Brick, port: Port)),
     assertz(white(Brick, Port, Red, Green, Blue)).
 
 %!  col_rgb(?Port, -RGB) is nondet.
@@ -108,7 +111,7 @@ col_hsv(Port, hsv(Hue, Saturation, Value)) :-
     ;   Saturation is round(100 * Chroma / Value)
     ).
 
-hue(0, _, _, _, _, 0) :-
+hue(0, _R, _, _G, _B, 0) :-
     !.
 hue(Chroma, R, R, G, B, Hue) :-
     !,

@@ -21,6 +21,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
+:- use_module(private/basics/fields, [goal_expansion/2]).
 :- use_module(private/checks/checks, [evaluated/2, must_be/2]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments,
@@ -162,7 +163,7 @@ arc(Speed, Radius, Options) :-
     speed(Speed, Percent),
     number_value(Radius, R),
     robot_description(Robot),
-    arg(7, Robot, Axle),
+    Robot = robot(axle: Axle),
     Inner is (abs(R) - Axle / 2.0) / (abs(R) + Axle / 2.0),
     (   R >= 0
     ->  wheels(Percent, 1, Inner, Options)
@@ -248,7 +249,7 @@ place_legs(X, Y, Heading, Legs) :-
     ->  Legs = [towards(X1, Y1), reach(X1, Y1)]
     ;   % Where the axle is when the robot is there with that heading.
         (   robot_description(Robot)
-        ->  arg(8, Robot, Offset)
+        ->  Robot = robot(offset: Offset)
         ;   Offset = 0
         ),
         X2 is X1 + Offset * sin(Heading * pi / 180),

@@ -14,6 +14,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
+:- use_module(private/basics/fields, [fields/1, goal_expansion/2]).
 :- use_module(private/checks/checks, [must_be/2, must_be_goal/1]).
 :- use_module(private/errors/errors,
               [error_within/3, in_own_name/1, throw_error/3]).
@@ -39,6 +40,8 @@
                 slices_/1, tick_after_/1
               ]).
 :- use_module(time, [wait/1]).
+
+:- fields(branch(number, engine, goal, over, commands, cause, brick)).
 
 :- initialization(guards_, now).
 
@@ -308,7 +311,7 @@ serve(due(Next, Count), Kind, Id, Now, Action) :-
         happen(Id, Kind, Action)
     ;   true
     ).
-serve(running(_), _, _, _, _) :- !.
+serve(running(_), _Kind, _Id, _Now, _Action) :- !.
 serve(happened(Count), on(Condition, _, Rearm), Id, _, _) :-
     !,
     (   is_armed(Rearm, Id, Condition)
@@ -621,53 +624,53 @@ wait_in([Brick|Bricks], Seconds) :-
 %   In the order of the list; a race is over with the first.
 each_goes_on([], _).
 each_goes_on([Branch|Branches], Which) :-
-    (   arg(4, Branch, false)
+    (   Branch = branch(over: false)
     ->  goes_on(Branch)
     ;   true
     ),
     (   Which == first,
-        arg(4, Branch, true(_))
+        Branch = branch(over: true(_))
     ->  true
     ;   Which == all,
-        arg(4, Branch, failed)
+        Branch = branch(over: failed)
     ->  true
     ;   each_goes_on(Branches, Which)
     ).
 
 goes_on(Branch) :-
-    arg(2, Branch, Engine),
+    Branch = branch(engine: Engine),
     commands_(From),
     % A branch has its own brick, and its own cause.
     brick(OuterBrick),
-    arg(7, Branch, Brick),
+    Branch = branch(brick: Brick),
     switch_brick(Brick),
     cause_now_(Outer),
-    arg(6, Branch, Cause),
+    Branch = branch(cause: Cause),
     (   Cause == []
     ->  true
     ;   cause_set_(Cause)
     ),
     (   catch(engine_next(Engine, Answer), E, true)
     ->  (   nonvar(E)
-        ->  nb_setarg(4, Branch, failed)
+        ->  set_field(Branch, branch(over: failed))
         ;   Answer == tick
         ->  true
-        ;   nb_setarg(4, Branch, true(Answer))
+        ;   set_field(Branch, branch(over: true(Answer)))
         )
-    ;   nb_setarg(4, Branch, failed)
+    ;   set_field(Branch, branch(over: failed))
     ),
     cause_now_(Own),
-    nb_setarg(6, Branch, Own),
+    set_field(Branch, branch(cause: Own)),
     cause_set_(Outer),
     brick(OwnBrick),
-    nb_setarg(7, Branch, OwnBrick),
+    set_field(Branch, branch(brick: OwnBrick)),
     switch_brick(OuterBrick),
     commands_(Before),
     (   From =:= Before
     ->  true
-    ;   arg(5, Branch, Commands),
+    ;   Branch = branch(commands: Commands),
         joined(Commands, From, Before, Joined),
-        nb_setarg(5, Branch, Joined)
+        set_field(Branch, branch(commands: Joined))
     ),
     (   nonvar(E)
     ->  throw(E)
@@ -679,34 +682,37 @@ joined(Ranges, From, Before, [From-Before|Ranges]).
 
 is_decided(Branches, first, over(Winner)) :-
     (   one_of(Branches, Branch),
-        arg(4, Branch, true(_))
-    ->  arg(1, Branch, Winner)
-    ;   \+ ( one_of(Branches, Branch), arg(4, Branch, false) ),
+        Branch = branch(over: true(_))
+    ->  Branch = branch(number: Winner)
+    ;   \+ ( one_of(Branches, Branch), Branch = branch(over: false) ),
         Winner = none
     ).
 is_decided(Branches, all, over(Winner)) :-
     (   one_of(Branches, Branch),
-        arg(4, Branch, failed)
+        Branch = branch(over: failed)
     ->  Winner = none
-    ;   \+ ( one_of(Branches, Branch), arg(4, Branch, false) ),
+    ;   \+ ( one_of(Branches, Branch), Branch = branch(over: false) ),
         Winner = all
     ).
 
 %   The bindings of what has succeeded.
 taken_over(Branches, first, Winner) :-
     integer(Winner),
-    one_of(Branches, branch(Winner, _, Goal, true(Goal), _, _, _)),
+    one_of(Branches, branch(number: Winner, goal: Goal, over: true(Goal))),
     !.
 taken_over(Branches, all, all) :-
     answers(Branches).
 
 answers([]).
-answers([branch(_, _, Goal, true(Goal), _, _, _)|Branches]) :-
+answers([Branch|Branches]) :-
+    Branch = branch(goal: Goal, over: true(Goal)),
     answers(Branches).
 
 %   To destroy an engine runs its clean-ups, which may wait.
 leave_branches([]).
-leave_branches([branch(_, Engine, _, Over, Commands, _, Brick)|Branches]) :-
+leave_branches([Branch|Branches]) :-
+    Branch = branch(engine: Engine, over: Over, commands: Commands,
+                    brick: Brick),
     (   Over == false
     ->  motors_stopped(Commands)
     ;   true

@@ -237,8 +237,8 @@ for_others(Error) :-
     !.
 
 settings(Options, M,
-         settings(Words, Trace, OnFailed, Device, Limit, Timeout, Initial,
-                  Keep)) :-
+         run_settings(Words, Trace, OnFailed, Device, Limit, Timeout, Initial,
+                      Keep)) :-
     must_be_options(golog_option,
                     [ reason, history, trace, limit, timeout, initial,
                       on_failed, gexec, device ], Options),
@@ -506,11 +506,11 @@ getdomain(M:Sort, Values) :-
 sensing_action(M:Action, Fluent) :-
     (   has_clauses(M, senses(_, _)),
         M:senses(Action, Fluent)
-    ;   has_clauses(M, senses(_, _, _, _, _)),
+    ;   has_clauses(M, senses(_, _, _Fluent, _, _)),
         M:senses(Action, _, Fluent, _, _)
-    ;   has_clauses(M, settles(_, _, _, _, _)),
+    ;   has_clauses(M, settles(_, _, _Fluent, _, _)),
         M:settles(Action, _, Fluent, _, _)
-    ;   has_clauses(M, rejects(_, _, _, _, _)),
+    ;   has_clauses(M, rejects(_, _, _Fluent, _, _)),
         M:rejects(Action, _, Fluent, _, _)
     ).
 

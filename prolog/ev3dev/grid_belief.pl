@@ -11,6 +11,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
+:- use_module(private/basics/fields, [goal_expansion/2]).
 :- use_module(private/checks/arguments, [must_be_options/3, number_option/4]).
 :- use_module(private/run/brick, [brick/1]).
 :- use_module(private/checks/checks, [must_be/2]).
@@ -320,19 +321,21 @@ seek(Left, Trip, Here, Done, Belief0, State) :-
         seek(Left1, Trip, There, [Action|Done], Belief, State)
     ).
 
-shown(metric(Cm, _, _, _, _), Belief) :-
+shown(Metric, Belief) :-
+    Metric = metric(cm: Cm),
     brick(Brick),
     retractall(believed(Brick, _, _)),
     assertz(believed(Brick, Cm, Belief)).
 
 %   What is seen of a wall or a box stands 10 to 13 cm from the middle of a
 %   cell of 20 cm, or one or two cells farther on.
-free_seen(metric(Cm, _, _, Eye, _), Free) :-
+free_seen(Metric, Free) :-
+    Metric = metric(cm: Cm, eye: Eye),
     us_dist_cm(_, Distance),
     Free is max(0, round((Distance + Eye) / Cm - 0.575)).
 
 act(Action, Map, Metric, Here, There) :-
-    Metric = metric(_, _, _, _, Speed),
+    Metric = metric(speed: Speed),
     grid_step(Map, Action, Here, Next),
     go_to_state(Next, Metric, Speed, Reason),
     (   Reason == reached

@@ -44,7 +44,7 @@ jog :-
 jog(Options) :-
     must_be_options(jog_option, [speed], Options),
     speed_option(Options, speed_ahead, 30, Speed),
-    robot_set(_, _, _, _),
+    robot_set(_, _, _Left, _Right),
     print_message(informational, ev3dev(jog)),
     call_cleanup(jog_on(Speed), ignore(stop)).
 

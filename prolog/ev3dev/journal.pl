@@ -335,7 +335,7 @@ event(Time, What, Command, Causes) :-
 
 write_events(Events, Stream) :-
     (   member(command(_, robot(_, _), _, _), Events),
-        robot(_, _, _, _)
+        robot(_Diameter, _, _, _)
     ->  robot_description(Robot),
         write_fact(Stream, Robot)
     ;   true

@@ -12,6 +12,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
+:- use_module(private/basics/fields, [fields/1, goal_expansion/2]).
 :- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/explain/hints).
@@ -34,6 +35,8 @@
 :- use_module(navigation, [navigate_to/3]).
 :- use_module(robot, [stop/0]).
 :- use_module(sensors, [us_dist_cm/2]).
+
+:- fields(mapper(brick, mapper, x, y, heading)).
 
 /** <module> A first map
 
@@ -65,7 +68,7 @@ Source: Thrun: Learning occupancy grid maps with forward sensor models (2003).
 :- multifile ev3dev_brick:forget/1.
 
 ev3dev_brick:forget(Brick) :-
-    retractall(mapper(Brick, _, _, _, _)).
+    retractall(mapper(brick: Brick)).
 
 %!  map_start is semidet.
 %!  map_start(+Options) is semidet.
@@ -92,7 +95,7 @@ map_start(Options) :-
     map_new_(Sensor, Mapper),
     brick(Brick),
     with_mutex(ev3dev_map,
-               ( retractall(mapper(Brick, _, _, _, _)),
+               ( retractall(mapper(brick: Brick)),
                  assertz(mapper(Brick, Mapper, X, Y, Heading)) )),
     every(Seconds, ev3dev_map:watch, [id(map)]).
 
@@ -107,14 +110,14 @@ map_stop :-
 
 mapper_now(Mapper) :-
     brick(Brick),
-    (   mapper(Brick, Mapper, _, _, _)
+    (   mapper(brick: Brick, mapper: Mapper)
     ->  true
     ;   fail_because(no_map)
     ).
 
 watch :-
     brick(Brick),
-    (   mapper(Brick, Mapper, _, _, _)
+    (   mapper(brick: Brick, mapper: Mapper)
     ->  ignore(looked(Mapper))
     ;   ignore(event_cancel(map))
     ).
@@ -211,10 +214,10 @@ explore(Options) :-
     number_option(radius(Radius), positive_number, Options, 8),
     number_option(speed(Speed), positive_number, Options, 15),
     brick(Brick),
-    (   mapper(Brick, Mapper, _, _, _)
+    (   mapper(brick: Brick, mapper: Mapper)
     ->  true
     ;   map_start,
-        mapper(Brick, Mapper, _, _, _)
+        mapper(brick: Brick, mapper: Mapper)
     ),
     setup_call_cleanup(
         true,

@@ -3,6 +3,7 @@
             navigate_to/3       % +Map, +Goal, +Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/basics/fields, [fields/1, goal_expansion/2]).
 :- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/explain/hints).
@@ -20,6 +21,9 @@
 :- use_module(private/native/native,
               [ steer_/5, views_block_/2, views_forget_/1, views_look_/5,
                 views_new_/2, views_obstacles_/3, views_step_/5 ]).
+
+:- fields(drive(views, facts, goal, margin, native, sensor, speed,
+                tolerance)).
 
 /** <module> Drive through a room that is not wholly known
 
@@ -118,7 +122,9 @@ navigate(Drive, Steps, Reason) :-
     ;   advance(Step, no, 1, Steps, Drive, Reason)
     ).
 
-next_step(drive(Views, Facts, Goal, Margin, Native, _, _, _), Step) :-
+next_step(Drive, Step) :-
+    Drive = drive(views: Views, facts: Facts, goal: Goal, margin: Margin,
+                  native: Native),
     pose(X, Y, _),
     views_step_(Views, Facts, way(X-Y, Goal, Margin), Native, Step).
 
@@ -148,7 +154,7 @@ advance(Step, Looked, Forgets, Steps, Drive, Reason) :-
     ).
 
 is_there(step(_, Length, _, _, Rest, _), Drive) :-
-    Drive = drive(_, _, _, _, _, _, _, Tolerance),
+    Drive = drive(tolerance: Tolerance),
     Length + Rest =< Tolerance.
 
 decided(step(Heading, Length, Safe, Unseen, _, Way), _, _, Decision) :-
@@ -191,7 +197,8 @@ carry_out(go(Heading, Way, Until), Drive, Done) :-
     ).
 carry_out(look, Drive, Done) :-
     look_around(Drive, Done).
-carry_out(block(Place), drive(Views, _, _, _, _, _, _, _), looked(yes)) :-
+carry_out(block(Place), Drive, looked(yes)) :-
+    Drive = drive(views: Views),
     views_block_(Views, Place).
 carry_out(forget, Drive, Done) :-
     forget(Drive),
@@ -207,7 +214,8 @@ until(_, Safe, _, Until) :-
     Until is Safe - 1,
     Until >= 4.
 
-forget(drive(Views, _, _, _, _, _, _, _)) :-
+forget(Drive) :-
+    Drive = drive(views: Views),
     views_forget_(Views).
 
 %!  observe(+Drive, -Moved) is semidet.
@@ -215,7 +223,8 @@ forget(drive(Views, _, _, _, _, _, _, _)) :-
 %   Notes what the sensor shows. Moved is true if that cannot be, unless
 %   something has moved.
 
-observe(drive(Views, _, _, _, _, Port-Sensor, _, _), Moved) :-
+observe(Drive, Moved) :-
+    Drive = drive(views: Views, sensor: (Port-Sensor)),
     pose(X, Y, Heading),
     us_dist_cm(Port, Distance),
     !,
@@ -245,7 +254,7 @@ look_around(From, Before, Still, Drive, Done) :-
         ;   Done = ended(Why)
         )
     ).
-look_around(_, _, _, _, ended(unplugged)).
+look_around(_From, _Before, _Still, _Drive, ended(unplugged)).
 
 %!  follow(+Way, +Until, +Drive, -Done) is semidet.
 %
@@ -274,12 +283,13 @@ follow(Way, Until, Before, Still, Drive, Done) :-
         ;   Done = ended(Why)
         )
     ).
-follow(_, _, _, _, _, ended(unplugged)).
+follow(_Way, _Until, _Before, _Still, _Drive, ended(unplugged)).
 
 %   Slower before the end, and where the way bends: by at most 60 degrees a
 %   second. What somebody has stopped stays so.
 
-steer(Left, Turn, drive(_, _, _, _, _, _, Speed, _)) :-
+steer(Left, Turn, Drive) :-
+    Drive = drive(speed: Speed),
     CmPerSecond is min(Speed, min(max(2, sqrt(30 * Left)),
                                   60 / max(abs(Turn), 1))),
     DegreesPerSecond is CmPerSecond * Turn,

@@ -6,6 +6,7 @@
             drive_option/2          % +Name, ?Value
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/basics/fields, [goal_expansion/2]).
 :- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/errors, [domain_error/2]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
@@ -127,8 +128,7 @@ heading_wrapped(Heading, Wrapped) :-
 
 %   The robot, and whether to use the gyro.
 motor_is_missing(Robot) :-
-    arg(1, Robot, Left),
-    arg(2, Robot, Right),
+    Robot = robot(left: Left, right: Right),
     fail_because(cannot([run(Left, 0), run(Right, 0)])).
 
 robot(Robot, UseGyro) :-

@@ -541,7 +541,7 @@ argument(A0, Bound, Path, A) :-
 
 %   What is not mentioned in :init is false.
 
-init([not|_], _, _, _, _) :-
+init([not|_], _T, _Path, _Kind, _Fact) :-
     !,
     fail.
 init(Atom, T, Path, Kind, Fact) :-

@@ -138,7 +138,7 @@ opened_by(Module) :-
     ->  described(Robot, Ports)
     ;   Alias = nxt,
         Ports = [],
-        (   robot(_, _, _, _)
+        (   robot(_Diameter, _, _, _)
         ->  true
         ;   set_robot(5.6, 10.6, outB, outC, [])
         )

@@ -90,7 +90,7 @@ random_room(_, _, _) :-
 %   Each has room around it for a robot: 28 cm. A place that does not fit is
 %   drawn again, two hundred times.
 
-placed(0, _, _, _, _, Things, Things) :-
+placed(0, _Kind, _Chance, _Size, _Frees, Things, Things) :-
     !.
 placed(Count, Kind, Chance, Size, Frees, Things0, Things) :-
     between(1, 200, _),

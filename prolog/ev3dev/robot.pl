@@ -9,6 +9,7 @@
             turn/2              % +Speed, +Angle
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/basics/fields, [goal_expansion/2]).
 :- use_module(private/checks/checks, [evaluated/2, must_be/2]).
 :- use_module(private/errors/errors, [domain_error/2]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
@@ -161,7 +162,7 @@ inverted(Side, Sides, Inverted) :-
 
 %   Forwards is 1, or -1 where the motor is mounted the other way round.
 forwards(LeftSign, RightSign) :-
-    robot_description(robot(_, _, _, _, IL, IR, _, _)),
+    robot_description(robot(left_inverted: IL, right_inverted: IR)),
     sign_of(IL, LeftSign),
     sign_of(IR, RightSign).
 
@@ -233,7 +234,7 @@ go(Speed, Angle) :-
 %   @error existence_error(motor, Port) if a motor is unplugged under way
 
 go_cm(Speed, Distance) :-
-    robot_set(_, _, _, _),
+    robot_set(_, _, _Left, _Right),
     robot_speed(Speed, Percent),
     evaluated(Distance, Cm),
     possible(Cm),
@@ -262,7 +263,7 @@ turn(Speed) :-
 %          under way
 
 turn(Speed, Angle) :-
-    robot_set(_, _, _, _),
+    robot_set(_, _, _Left, _Right),
     robot_speed(Speed, Percent),
     evaluated(Angle, Degrees),
     possible(Degrees),

@@ -11,6 +11,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
+:- use_module(private/basics/fields, [fields/1, goal_expansion/2]).
 :- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/errors,
               [ domain_error/2, error_within/3, existence_error/2,
@@ -30,6 +31,11 @@
                 slices_/1 ]).
 :- use_module(time, [wait/1]).
 :- reexport(events).
+
+:- fields(behavior(id, rules, settings, active, state, since, next,
+                   messages, warned)).
+:- fields(settings(until, deadline, period, trace, on_error, first)).
+:- fields(rule(index, name, guard, action, options, shared)).
 
 :- meta_predicate
     behave(:),
@@ -178,7 +184,7 @@ rules([Term|Terms], Index, Module0, [Rule|Rules]) :-
     Next is Index + 1,
     rules(Terms, Next, Module0, Rules).
 
-rule(Term, _, _, _, _, _) :-
+rule(Term, _Module, _Name, _Options, _Guard, _Action) :-
     var(Term),
     !,
     instantiation_error(Term).
@@ -188,7 +194,7 @@ rule((Head :: Guard0 ~> Action), Module, Name, Options, Guard, Action) :-
     must_be(callable, Guard0),
     condition_goal(Module:Guard0, _:Guard),
     must_be_action(Action).
-rule(Rule, _, _, _, _, _) :-
+rule(Rule, _Module, _Name, _Options, _Guard, _Action) :-
     Rule = (_ :: _ -> _),
     !,
     wrong_arrow(Rule).
@@ -329,7 +335,7 @@ deadline(Options, Deadline) :-
 %       the rules whose actions have failed
 
 active(Behavior, Active) :-
-    arg(4, Behavior, Active).
+    Behavior = behavior(active: Active).
 
 %   File and line of the active rule, if it is in a file.
 
@@ -339,8 +345,8 @@ ev3dev_causes:active_clause(Clause) :-
     nb_current(ev3dev_behavior, Behavior),
     Behavior \== [],
     active(Behavior, active(Index, _, _)),
-    arg(2, Behavior, Rules),
-    arg(Index, Rules, rule(_, Name, Module:_, _, _, _)),
+    Behavior = behavior(rules: Rules),
+    arg(Index, Rules, rule(name: Name, guard: (Module:_))),
     catch(clause(Module:'$ev3dev rule'(Name, _, _, _), true, Clause),
           error(_, _), fail),
     !.
@@ -352,8 +358,8 @@ run(Behavior, Reason) :-
     !.
 
 step(Behavior, Step) :-
-    arg(7, Behavior, Next),
-    nb_setarg(7, Behavior, []),
+    Behavior = behavior(next: Next),
+    set_field(Behavior, behavior(next: [])),
     look_again(Behavior),
     (   Next = over(_)
     ->  Step = Next
@@ -363,17 +369,17 @@ step(Behavior, Step) :-
     ;   is_over(Behavior, Reason)
     ->  Step = over(Reason)
     ;   choice(Next, Behavior, Rule)
-    ->  nb_setarg(8, Behavior, []),
+    ->  set_field(Behavior, behavior(messages: [])),
         take(Rule, Behavior),
         Step = goes_on
-    ;   nb_setarg(8, Behavior, []),
+    ;   set_field(Behavior, behavior(messages: [])),
         none(Behavior),
         pass(Behavior),
         Step = goes_on
     ).
 
 is_over(Behavior, Reason) :-
-    arg(3, Behavior, settings(Until, Deadline, _, _, _, _)),
+    Behavior = behavior(settings: settings(until: Until, deadline: Deadline)),
     (   Deadline \== inf,
         now_(Now),
         Now >= Deadline
@@ -384,26 +390,27 @@ is_over(Behavior, Reason) :-
     ).
 
 pass(Behavior) :-
-    arg(3, Behavior, settings(_, _, Period, _, _, _)),
+    Behavior = behavior(settings: settings(period: Period)),
     wait(Period).
 
 replace(Behavior, Rules) :-
     functor(Rules, _, Count),
     functor(Since, since, Count),
-    nb_setarg(2, Behavior, Rules),
-    nb_setarg(4, Behavior, none),
-    nb_setarg(6, Behavior, Since).
+    set_field(Behavior, behavior(rules: Rules)),
+    set_field(Behavior, behavior(active: none)),
+    set_field(Behavior, behavior(since: Since)).
 
 %   The first rule that applies, with its guard's bindings.
 choice(next(Index, Held), Behavior, Rule) :-
     rule_at(Index, Behavior, Rule),
     held(Rule, Held).
 choice([], Behavior, Rule) :-
-    arg(2, Behavior, Rules),
+    Behavior = behavior(rules: Rules),
     functor(Rules, _, Count),
     applies_within(Behavior, Rules, 1, Count, Rule).
 
-held(rule(_, _, Guard, _, _, Shared), held(Guard, Shared)).
+held(Rule, held(Guard, Shared)) :-
+    Rule = rule(guard: Guard, shared: Shared).
 
 applies_within(Behavior, Rules, Index, Last, Rule) :-
     Index =< Last,
@@ -415,8 +422,8 @@ applies_within(Behavior, Rules, Index, Last, Rule) :-
     ).
 
 applies(Rule, Behavior) :-
-    Rule = rule(Index, _, _, _, _, _),
-    arg(6, Behavior, Since),
+    Rule = rule(index: Index),
+    Behavior = behavior(since: Since),
     arg(Index, Since, From),
     (   number(From)
     ->  now_(Now),
@@ -430,11 +437,11 @@ applies(Rule, Behavior) :-
 %   Has the guard of a rule that has ended been false? Also while an earlier
 %   rule is active.
 look_again(Behavior) :-
-    arg(6, Behavior, Since),
+    Behavior = behavior(since: Since),
     (   Since =.. [_|List],
         \+ ( one_of(List, From), compound(From) )
     ->  true
-    ;   arg(2, Behavior, Rules),
+    ;   Behavior = behavior(rules: Rules),
         forall(( arg(Index, Since, From), compound(From) ),
                ( arg(Index, Rules, Rule),
                  (   holds(Rule, Behavior)
@@ -474,7 +481,7 @@ failed(E, Name, Where, Behavior) :-
     (   E = error(permission_error(wait, guard, _), _)
     ->  throw(E)
     ;   E = error(_, _)
-    ->  arg(3, Behavior, settings(_, _, _, _, OnError, _)),
+    ->  Behavior = behavior(settings: settings(on_error: OnError)),
         format(atom(Text), 'in the ~w of rule ~p', [Where, Name]),
         error_within(E, Text, Named),
         (   OnError == throw
@@ -499,12 +506,12 @@ none(Behavior) :-
     ->  true
     ;   left(Behavior),
         rest(Behavior, none),
-        nb_setarg(4, Behavior, rest),
+        set_field(Behavior, behavior(active: rest)),
         traced(Behavior, rest)
     ).
 
 rest(Behavior, Why) :-
-    arg(3, Behavior, settings(_, _, _, _, _, First)),
+    Behavior = behavior(settings: settings(first: First)),
     commands_(Before),
     acting_for(motors_stop_(First, Before), rules(Why)).
 
@@ -513,27 +520,27 @@ left(Behavior) :-
     active(Behavior, Active),
     (   Active = active(Index, _, _)
     ->  cool_down(Index, Behavior),
-        nb_setarg(4, Behavior, none)
+        set_field(Behavior, behavior(active: none))
     ;   true
     ).
 
 cool_down(Index, Behavior) :-
-    rule_at(Index, Behavior, rule(_, _, _, _, _:Options, _)),
+    rule_at(Index, Behavior, rule(options: (_:Options))),
     (   option(cooldown(Seconds0), Options)
     ->  number_value(seconds, Seconds0, Seconds),
         now_(Now),
         From is Now + Seconds,
-        arg(6, Behavior, Since),
+        Behavior = behavior(since: Since),
         nb_setarg(Index, Since, From)
     ;   true
     ).
 
 rule_at(Index, Behavior, Rule) :-
-    arg(2, Behavior, Rules),
+    Behavior = behavior(rules: Rules),
     arg(Index, Rules, Rule).
 
 take(Rule, Behavior) :-
-    Rule = rule(Index, _, _, _, _, Shared),
+    Rule = rule(index: Index, shared: Shared),
     (   active(Behavior, active(Index, Start, going(Values)))
     ->  (   Values =@= Shared
         ->  true
@@ -541,11 +548,11 @@ take(Rule, Behavior) :-
         ),
         pass_if_going(Index, Behavior)
     ;   left(Behavior),
-        arg(3, Behavior, settings(_, _, _, _, _, First)),
+        Behavior = behavior(settings: settings(first: First)),
         commands_(Before),
         motors_leave_(First, Before),
         now_(Now),
-        Rule = rule(_, Name, _:Guard, _, _, _),
+        Rule = rule(name: Name, guard: (_:Guard)),
         traced(Behavior, rule(Name)),
         begins(rule(Name, Guard)),
         act(Rule, Now, Behavior),
@@ -566,9 +573,8 @@ pass_if_going(Index, Behavior) :-
     ).
 
 act(rule(Index, Name, Guard, Action, _, Shared), Start, Behavior) :-
-    nb_setarg(4, Behavior, active(Index, Start, waits)),
-    arg(1, Behavior, Id),
-    arg(3, Behavior, settings(_, _, Period, _, _, _)),
+    set_field(Behavior, behavior(active: active(Index, Start, waits))),
+    Behavior = behavior(id: Id, settings: settings(period: Period)),
     slices_(Slices0),
     catch(( listening(Period, ev3dev_rules:tick(Behavior),
                       ev3dev_rules:carry_out(Action, Name, Guard))
@@ -580,7 +586,8 @@ act(rule(Index, Name, Guard, Action, _, Shared), Start, Behavior) :-
     slices_(Slices),
     (   Outcome == ended,
         Slices =:= Slices0
-    ->  nb_setarg(4, Behavior, active(Index, Start, going(Shared)))
+    ->  Active = active(Index, Start, going(Shared)),
+        set_field(Behavior, behavior(active: Active))
     ;   over(Outcome, Index, Name, Guard, Behavior),
         (   Outcome \== suppressed,
             Slices =:= Slices0
@@ -602,7 +609,7 @@ over(Outcome, Index, Name, Guard, Behavior) :-
     ->  true
     ;   Guard = _:true
     ->  true
-    ;   arg(6, Behavior, Since),
+    ;   Behavior = behavior(since: Since),
         arg(Index, Since, From),
         (   number(From)                % cools down, too
         ->  nb_setarg(Index, Since, ended(From))
@@ -613,22 +620,22 @@ over(Outcome, Index, Name, Guard, Behavior) :-
     ->  warn_once(Name, Behavior)
     ;   true
     ),
-    (   arg(7, Behavior, over(_))
+    (   Behavior = behavior(next: over(_))
     ->  true
     ;   Event =.. [Outcome, Name],
         traced(Behavior, Event)
     ).
 
 warn_once(Name, Behavior) :-
-    arg(9, Behavior, Warned),
+    Behavior = behavior(warned: Warned),
     (   one_of(Warned, Name)
     ->  true
-    ;   nb_setarg(9, Behavior, [Name|Warned]),
+    ;   set_field(Behavior, behavior(warned: [Name|Warned])),
         print_message(warning, ev3dev(rule_failed(Name)))
     ).
 
 traced(Behavior, Event) :-
-    arg(3, Behavior, settings(_, _, _, Trace, _, _)),
+    Behavior = behavior(settings: settings(trace: Trace)),
     (   Trace == none
     ->  true
     ;   \+ goal_of_program(call(Trace, Event))
@@ -675,10 +682,10 @@ is_late(End) :-
 
 % While an action waits: is it time to interrupt it?
 tick(Behavior, Listener) :-
-    arg(1, Behavior, Id),
+    Behavior = behavior(id: Id),
     look_again(Behavior),
     (   next(Behavior, Next)
-    ->  nb_setarg(7, Behavior, Next),
+    ->  set_field(Behavior, behavior(next: Next)),
         leave(Listener, ev3dev_leave(Id))
     ;   true
     ).
@@ -688,11 +695,11 @@ next(Behavior, over(Reason)) :-
     !.
 next(Behavior, Next) :-
     active(Behavior, active(Index, _, _)),
-    rule_at(Index, Behavior, rule(_, Name, _, _, Module:Options, _)),
-    arg(2, Behavior, Rules),
+    rule_at(Index, Behavior, rule(name: Name, options: (Module:Options))),
+    Behavior = behavior(rules: Rules),
     Last is Index - 1,
     (   applies_within(Behavior, Rules, 1, Last, Rule)
-    ->  Rule = rule(Earlier, _, _, _, _, _),
+    ->  Rule = rule(index: Earlier),
         held(Rule, Held),
         Next = next(Earlier, Held)
     ;   option(while(Condition), Options),
@@ -712,8 +719,8 @@ next(Behavior, Next) :-
 become(Rules0) :-
     rules(Rules0, Rules),
     behavior(Behavior, become),
-    arg(1, Behavior, Id),
-    nb_setarg(7, Behavior, become(Rules)),
+    Behavior = behavior(id: Id),
+    set_field(Behavior, behavior(next: become(Rules))),
     throw(ev3dev_leave(Id)).
 
 %!  state(?State) is semidet.
@@ -727,13 +734,13 @@ become(Rules0) :-
 
 state(State) :-
     behavior(Behavior, read),
-    arg(5, Behavior, State0),
+    Behavior = behavior(state: State0),
     State = State0.
 
 set_state(State) :-
     must_be(nonvar, State),
     behavior(Behavior, set),
-    nb_setarg(5, Behavior, State).
+    set_field(Behavior, behavior(state: State)).
 
 behavior(Behavior, Action) :-
     (   nb_current(ev3dev_behavior, Behavior),
@@ -755,11 +762,11 @@ behavior(Behavior, Action) :-
 send_message(Message) :-
     must_be(nonvar, Message),
     behavior(Behavior, send),
-    arg(8, Behavior, Messages),
+    Behavior = behavior(messages: Messages),
     append_lists(Messages, [Message], More),
-    nb_setarg(8, Behavior, More).
+    set_field(Behavior, behavior(messages: More)).
 
 received(Message) :-
     behavior(Behavior, read),
-    arg(8, Behavior, Messages),
+    Behavior = behavior(messages: Messages),
     one_of(Messages, Message).

@@ -183,7 +183,7 @@ must_be_near(_, _).
 :- dynamic
     serving/2.                          % Port, Url
 
-ensure_served(Port, _, _, _, _, Url) :-
+ensure_served(Port, _Address, _Token, _Rate, _Goals, Url) :-
     serving(Port0, Url),
     !,
     (   var(Port)

@@ -74,7 +74,7 @@ hear(_, _, stop, _, _) :-
 hear(_, _, end, _, _) :-
     !,
     leave.
-hear(_, _, _, _, _).
+hear(_In, _Main, _, _Number, _Version).
 
 %   SIGTERM stops the motors whatever the goal does, and ends the process
 %   within two seconds.

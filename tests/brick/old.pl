@@ -60,11 +60,7 @@ for_new('tools/mutate.pl').
 for_new('tools/check-brick-prolog.pl').
 
 pack_file(File) :-
-    member(Pattern,
-           [ 'prolog/*.pl', 'prolog/*/*.pl', 'prolog/*/*/*.pl',
-             'prolog/*/*/*/*.pl' ]),
-    expand_file_name(Pattern, Files),
-    member(File, Files).
+    directory_member(prolog, File, [extensions([pl]), recursive(true)]).
 
 wrong(Text) :-
     wrong_sample(Text, Expected, Found),

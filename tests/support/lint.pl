@@ -161,7 +161,28 @@ unplain(Text, Word) :-
 
 bad_line(File, Number, Why) :-
     line_of(File, Number, Line),
-    bad(Line, Why).
+    (   bad(Line, Why)
+    ;   sub_atom(File, 0, _, _, 'prolog/'),
+        nameless(Line, Why)
+    ).
+
+% A record with many fields has names for them: private/basics/fields.pl.
+nameless(Line, four_nameless_arguments) :-
+    split_string(Line, "%", "", [Code|_]),
+    split_string(Code, " ", " ", Words),
+    atomic_list_concat(Words, Packed),
+    sub_atom(Packed, Before, _, _, '_,_,_,_'),
+    \+ ( Last is Before-1,
+         sub_atom(Packed, Last, 1, _, Char),
+         char_type(Char, csym) ).
+nameless(Line, argument(Number)) :-
+    \+ sub_string(Line, 0, _, _, "%"),
+    sub_string(Line, Before, _, After, "arg("),
+    Begin is Before+4,
+    sub_string(Line, Begin, After, 0, Rest),
+    split_string(Rest, ",", "", [Digits, _|_]),
+    number_string(Number, Digits),
+    Number > 1.
 
 line_of(File, Number, Line) :-
     read_file_to_string(File, Text, []),

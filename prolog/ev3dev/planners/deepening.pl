@@ -92,7 +92,8 @@ beyond(beyond(F0), State, F, Seen0, Seen) :-
     ;   Seen = Seen0
     ).
 
-visit_all([], _, _, _, _, none, Seen, Seen, Expanded, Expanded).
+visit_all([], _G, _Path, _Limit, _Search, none, Seen, Seen, Expanded,
+          Expanded).
 visit_all([way(Action, Next, Cost)|Ways], G0, Path, Limit, Search, Result,
           Seen0, Seen, Expanded0, Expanded) :-
     Search = search(Measure, _, _),

@@ -1,11 +1,14 @@
 :- module(ev3dev_picture,
           [ draw_panels/5               % +File, +Map, +Start, +Goal, +Panels
           ]).
+:- use_module('../private/basics/fields', [fields/1, goal_expansion/2]).
 :- use_module(library(lists), [member/2, nth0/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module('../private/files/directory', [write_file/2]).
 :- use_module('../private/grid/map').
+
+:- fields(panel(planner, facts, path, counts, most)).
 
 /** <module> A picture of the expanded states
 */
@@ -30,7 +33,7 @@ draw_panels(File, Map, Start, Goal, Panels0) :-
               largest(Numbers, 1, Most)
             ),
             Panels),
-    findall(Most, member(panel(_, _, _, _, Most), Panels), Mosts),
+    findall(Most, member(panel(most: Most), Panels), Mosts),
     largest(Mosts, 1, Most),
     write_file(File, draw(Map, Start, Goal, Panels, Most)).
 

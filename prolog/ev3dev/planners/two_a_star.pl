@@ -133,7 +133,8 @@ expand(ahead, Space, State, Ways) :-
 expand(back, Space, State, Ways) :-
     space_previous(Space, State, Ways).
 
-reach([], _, _, _, _, _, _, Heap, Heap, Reached, Reached, Best, Best).
+reach([], _From, _G, _Direction, _Other, _Closed, _Search, Heap, Heap,
+      Reached, Reached, Best, Best).
 reach([way(Action, State, Cost)|Ways], From, G0, Direction, Other, Closed,
       Search, Heap0, Heap, Reached0, Reached, Best0, Best) :-
     G is G0 + Cost,

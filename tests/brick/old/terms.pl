@@ -38,13 +38,23 @@ read_terms(Stream, Module, Terms) :-
     ).
 
 read_one(Stream, Module, Line, Term) :-
-    catch(read_term(Stream, Term,
+    catch(read_term(Stream, Term0,
                     [module(Module), term_position(Position)]),
           error(syntax_error(Why), Place), true),
     (   nonvar(Why)
     ->  Term = unreadable(Why),
         arg(2, Place, Line)
-    ;   stream_position_data(line_count, Position, Line)
+    ;   stream_position_data(line_count, Position, Line),
+        with_positions(Term0, Term)
+    ).
+
+%   Records whose fields have names are replaced when a file is compiled.
+
+with_positions(Term0, Term) :-
+    (   Term0 = (Head :- Body0),
+        ev3dev_fields:goal_expansion(Body0, Body)
+    ->  Term = (Head :- Body)
+    ;   Term = Term0
     ).
 
 %   The operators of 7.2.3, whatever the running version has.

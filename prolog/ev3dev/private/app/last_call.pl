@@ -246,7 +246,7 @@ layouts(Layout, Args, Layouts) :-
         Layout = parentheses_term_position(_, _, Inner)
     ->  layouts(Inner, Args, Layouts)
     ;   nonvar(Layout),
-        Layout = term_position(_, _, _, _, Layouts0),
+        Layout = term_position(_From, _To, _, _, Layouts0),
         same_length(Layouts0, Args)
     ->  Layouts = Layouts0
     ;   length(Args, Count),

@@ -3,6 +3,7 @@
                                         % :Report, -Done
             redis_work/2                % +Address, +Workers
           ]).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
 :- use_module(pool,
               [ batch_step/3, end_workers/1, start_workers/2,
                 workers_ready/2 ]).
@@ -14,6 +15,8 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(socket), [gethostname/1]).
+
+:- fields(program(batch, pool, begin, limits, folder)).
 
 :- meta_predicate redis_batch(+, +, +, 2, -).
 
@@ -229,17 +232,17 @@ taken(Redis, Me, Free, Beat0-Beat, Runs) :-
 
 turned(Redis, Number, Now0, Runs0, Now, Runs) :-
     (   Runs0 = [run(_, Next, _, _)|_],
-        \+ program(Next, _, _, _, _),
+        \+ program(batch: Next),
         ( Now0 == none ; Now0 = now([], _, [], _) )
     ->  stopped_program,
         (   begun(Redis, Number, Next)
-        ->  program(Next, Pool, _, _, _),
+        ->  program(batch: Next, pool: Pool),
             turned(Redis, Number, now([], Pool, [], []), Runs0, Now, Runs)
         ;   of_batch(Next, Runs0, Its, Others),
             forall(member(run(Id, _, _, _), Its), over(Redis, Id)),
             turned(Redis, Number, none, Others, Now, Runs)
         )
-    ;   program(Batch, _, _, _, _),
+    ;   program(batch: Batch),
         Now0 = now(Todos0, Idle, Busy, Done)
     ->  of_batch(Batch, Runs0, Its, Runs),
         findall(todo(Id-N, Seed, 1), member(run(Id, _, N, Seed), Its), More),
@@ -280,7 +283,7 @@ begin(Number, Batch, Begin, Limits, Folder) :-
     workers_ready(Pool, Begin).
 
 stopped_program :-
-    forall(retract(program(_, Pool, _, _, Folder)),
+    forall(retract(program(pool: Pool, folder: Folder)),
            ( end_workers(Pool),
              (   Folder == none
              ->  true
@@ -313,13 +316,13 @@ tell(Redis, Batch, Answer) :-
 stepped(Redis, Number, Now0, Now) :-
     (   Now0 = now(Todos, Idle0, Busy, []),
         \+ ( Todos == [], Busy == [] )
-    ->  program(Batch, _, _, Limits, _),
+    ->  program(batch: Batch, limits: Limits),
         (   Idle0 == [],
             Busy == []
         ->  retract(program(Batch, Dead, Begin, _, Folder)),
             end_workers(Dead),
             begin(Number, Batch, Begin, Limits, Folder),
-            program(Batch, Idle, _, _, _)
+            program(batch: Batch, pool: Idle)
         ;   Idle = Idle0
         ),
         batch_step(Limits, now(Todos, Idle, Busy, []),

@@ -4,6 +4,7 @@
             end_workers/1,              % +Pool
             batch_step/3                % +Limits, +State0, -State
           ]).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
 :- use_module('../errors/errors', [throw_error/3]).
 :- use_module('../processes/usage',
               [ usage_begins/1, usage_beyond/3, usage_goes_on/5 ]).
@@ -14,6 +15,8 @@
                 process_wait/2 ]).
 :- use_module(library(readutil),
               [read_line_to_string/2]).
+
+:- fields(busy(worker, todo, process, score, used)).
 
 /** <module> Processes that run a program with many seeds
 
@@ -121,7 +124,7 @@ batch_step(Limits, now(Todos0, Idle0, Busy0, Done0), Now) :-
     (   Busy == [],
         Todos \== []
     ->  has_died
-    ;   findall(Out, member(busy(worker(_, _, Out), _, _, _, _), Busy),
+    ;   findall(Out, member(busy(worker: worker(_, _, Out)), Busy),
                 Outs),
         ready_soon(Outs, Ready),
         foldl(progress(Ready, Limits), Busy, now(Todos, Idle, [], Done0), Now)

@@ -179,7 +179,7 @@ hear(_, Name, _, output, _, Text) :-
     !,
     format(user_output, '~w: ~s~n', [Name, Text]),
     flush_output(user_output).
-hear(_, _, _, _, _, _).
+hear(_Far, _Name, _Out, _, _Number, _Version).
 
 %   What nobody waits for any more is dropped.
 

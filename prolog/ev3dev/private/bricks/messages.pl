@@ -3,8 +3,11 @@
             receive_message/3,          % +Brick, +Name, +Term
             next_message/4              % +Until, +Late, -From, ?Term
           ]).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
 :- use_module('../run/brick', [brick/1, in_brick/2, is_simulated/0]).
 :- use_module('../../time', [ev3_time/1, wait/1]).
+
+:- fields(message(brick, at, sender, number, name, term)).
 
 /** <module> Messages from brick to brick
 
@@ -19,7 +22,7 @@ order of their senders' bricks, and those of one sender in theirs.
 :- multifile ev3dev_brick:forget/1.
 
 ev3dev_brick:forget(Brick) :-
-    retractall(message(Brick, _, _, _, _, _)).
+    retractall(message(brick: Brick)).
 
 %   How long one takes, and between two looks for one, in seconds.
 
@@ -86,7 +89,7 @@ taken(Me, Now, From, Term) :-
 
 pause(Me, Now, Until, Pause) :-
     look(Look),
-    findall(At, ( message(Me, At, _, _, _, _), At > Now ), Coming),
+    findall(At, ( message(brick: Me, at: At), At > Now ), Coming),
     Latest is Now+Look,
     msort([Latest|Coming], [First0|_]),
     (   Until \== inf,

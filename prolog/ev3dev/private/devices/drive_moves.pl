@@ -8,6 +8,7 @@
             must_be_move_options/1,     % +Options
             backwards/2                 % +Direction, -Backwards
           ]).
+:- use_module('../basics/fields', [goal_expansion/2]).
 :- use_module('../checks/checks', [evaluated/2, must_be/2]).
 :- use_module('../errors/public_clauses', [term_expansion/4]).
 :- use_module('../explain/hints').
@@ -74,8 +75,7 @@ move(Percent, Course, Options) :-
         ->  Reason = Ended
         ;   ended(Ended, Course)
         )
-    ;   arg(1, Robot, Left),
-        arg(2, Robot, Right),
+    ;   Robot = robot(left: Left, right: Right),
         fail_because(cannot_move(Left, Right, Percent, Course))
     ).
 

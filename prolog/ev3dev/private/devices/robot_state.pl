@@ -6,8 +6,12 @@
             drive_default/2,            % ?Name, ?Value
             store_drive_default/2       % +Name, +Value
           ]).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
 :- use_module('../run/brick', [brick/1]).
 :- use_module('../explain/hints', [fail_because/1]).
+
+:- fields(robot(left, right, left_diameter, right_diameter, left_inverted,
+                right_inverted, axle, offset)).
 
 /** <module> The robot of set_robot/4
 */

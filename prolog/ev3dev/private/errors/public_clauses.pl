@@ -46,8 +46,7 @@ layout(Layout0, Layout) :-
     (   nonvar(Layout0),
         Layout0 = term_position(From, To, NeckFrom, NeckTo, [Head, Body]),
         compound(Body)
-    ->  arg(1, Body, Begin),
-        arg(2, Body, End),
+    ->  Body =.. [_, Begin, End|_],
         Layout = term_position(From, To, NeckFrom, NeckTo,
                                [ Head,
                                  term_position(Begin, End, End, End,

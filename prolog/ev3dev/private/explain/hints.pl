@@ -168,7 +168,7 @@ tell_again :-
 :- multifile user:expand_query/4.
 :- dynamic user:expand_query/4.
 :- initialization(
-       asserta((user:expand_query(_, _, _, _) :-
+       asserta((user:expand_query(_Query, _, _, _) :-
                     ev3dev_hints:tell_again,
                     fail)),
        now).
@@ -231,10 +231,9 @@ cause(Cause, Cause).
 %   A speed in degrees a second is a percentage of what the motor can, too.
 
 percent(Run, Percent) :-
-    arg(2, Run, Speed),
+    Run =.. [_, Port, Speed|_],
     (   Speed = dps(Degrees)
-    ->  arg(1, Run, Port),
-        attribute_('tacho-motor', Port, max_speed, Max),
+    ->  attribute_('tacho-motor', Port, max_speed, Max),
         attribute_('tacho-motor', Port, count_per_rot, Counts),
         motor_gear_(Port, Gear),
         Percent is round(Degrees * Gear * Counts / 3.6 / Max)
@@ -245,7 +244,7 @@ is_to_blame(Run) :-
     percent(Run, Percent),
     (   abs(Percent) > 100
     ->  true
-    ;   arg(3, Run, Way),
+    ;   Run = run(_, _, Way),
         (   Percent =:= 0
         ->  true
         ;   abs(Way) > 1.0e9           % a motor counts to 2^31

@@ -24,6 +24,7 @@
             gave_up/2,                  % +Limit, +Far
             was_given_up/2              % -Limit, -Far
           ]).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
 :- use_module(effort, [effort/4, watched_effort/3]).
 :- use_module(hints, [hint/3]).
 :- use_module(theory, [has_possible_values/1, located/3]).
@@ -31,12 +32,14 @@
 :- use_module('../errors/errors', [throw_error/3]).
 :- use_module('../errors/frames', [goal_of_program/1]).
 
+:- fields(context(module, options, calls, record, effort, mode)).
+
 /** <module> The context of the interpreter
 
-A context is `x(Module, Options, Calls, Record, Effort, Mode)`. Module holds
-the domain. Options are words of this run: `online`, `assume` (what gexec/2
-means), `simulate`, `conditional` for a plan with branches. Calls are the
-procedures entered since the step began. Record is `none`, or
+A context is `context(Module, Options, Calls, Record, Effort, Mode)`. Module
+holds the domain. Options are words of this run: `online`, `assume` (what
+gexec/2 means), `simulate`, `conditional` for a plan with branches. Calls are
+the procedures entered since the step began. Record is `none`, or
 record(Number, Notes) of the step that an online run takes: Notes is a partial
 list, of what noted/2 says of the step, the outermost first. Effort is what
 effort.pl counts, or `none`. Mode is what it means that a condition holds:
@@ -49,12 +52,14 @@ the value of a fluent is the set of these.
 %!  context_module(+Context, -Module) is det.
 %!  context_option(?Option, +Context) is semidet.
 
-context(Module, Options, x(Module, Options, [], none, none, Mode)) :-
+context(Module, Options, context(Module, Options, [], none, none, Mode)) :-
     mode(Options, Module, Mode).
 
-context_module(x(Module, _, _, _, _, _), Module).
+context_module(Context, Module) :-
+    Context = context(module: Module).
 
-context_option(Option, x(_, Options, _, _, _, _)) :-
+context_option(Option, Context) :-
+    Context = context(options: Options),
     memberchk(Option, Options).
 
 mode(Options, Module, Mode) :-
@@ -77,35 +82,38 @@ mode(Options, Module, Mode) :-
 %   Context is Context0 with Mode; with the other one of `known` and
 %   `possible`. Without possible values it is Context0.
 
-context_mode(x(_, _, _, _, _, Mode), Mode).
+context_mode(Context, Mode) :-
+    Context = context(mode: Mode).
 
 in_mode(Mode, X0, X) :-
-    X0 = x(M, O, C, R, E, Mode0),
+    X0 = context(M, O, C, R, E, Mode0),
     (   ( Mode0 == known ; Mode0 == possible )
-    ->  X = x(M, O, C, R, E, Mode)
+    ->  X = context(M, O, C, R, E, Mode)
     ;   X = X0
     ).
 
 dual(X0, X) :-
-    X0 = x(M, O, C, R, E, Mode),
+    X0 = context(M, O, C, R, E, Mode),
     (   Mode == known
-    ->  X = x(M, O, C, R, E, possible)
+    ->  X = context(M, O, C, R, E, possible)
     ;   Mode == possible
-    ->  X = x(M, O, C, R, E, known)
+    ->  X = context(M, O, C, R, E, known)
     ;   X = X0
     ).
 
 %!  context_effort(+Context, -Effort) is det.
 
-context_effort(x(_, _, _, _, Effort, _), Effort).
+context_effort(Context, Effort) :-
+    Context = context(effort: Effort).
 
 %!  searching(+Options, +Limits, +Context0, -Context) is det.
 %
 %   A search begins, with words of its own; it gives up at Limits, and at
 %   those of the searches around it.
 
-searching(Options, Limits, x(M, _, _, _, Outer, _),
-          x(M, Options, [], none, Effort, Mode)) :-
+searching(Options, Limits, Context,
+          context(M, Options, [], none, Effort, Mode)) :-
+    Context = context(module: M, effort: Outer),
     mode(Options, M, Mode),
     effort(Limits, Options, Outer, Effort).
 
@@ -114,7 +122,8 @@ searching(Options, Limits, x(M, _, _, _, Outer, _),
 %   A new step begins: no procedure has been entered, nothing is recorded,
 %   and nobody watches.
 
-stepping(x(M, O, _, _, _, Mode), x(M, O, [], none, none, Mode)).
+stepping(Context, context(M, O, [], none, none, Mode)) :-
+    Context = context(module: M, options: O, mode: Mode).
 
 %!  recording(+Number, :Watch, +Context0, -Context) is det.
 %!  noted(+Note, +Context) is det.
@@ -126,12 +135,14 @@ stepping(x(M, O, _, _, _, Mode), x(M, O, [], none, none, Mode)).
 %   takes the step. Notes are these, the innermost first. Backtracking undoes
 %   what was noted.
 
-recording(Number, Watch, x(M, O, _, _, _, Mode),
-          x(M, O, [], Record, Effort, Mode)) :-
+recording(Number, Watch, Context,
+          context(M, O, [], Record, Effort, Mode)) :-
+    Context = context(module: M, options: O, mode: Mode),
     Record = record(Number, _),
     watched_effort(Watch, Record, Effort).
 
-noted(Note, x(_, _, _, Record, _, _)) :-
+noted(Note, Context) :-
+    Context = context(record: Record),
     (   Record = record(_, Notes)
     ->  ends_in(Notes, Note)
     ;   true
@@ -148,9 +159,11 @@ ends_in(Partial, Note) :-
 %
 %   True if noted/2 is remembered.
 
-is_recorded(x(_, _, _, record(_, _), _, _)).
+is_recorded(Context) :-
+    Context = context(record: record(_, _)).
 
-recorded_step(x(_, _, _, Record, _, _), Number, Notes) :-
+recorded_step(Context, Number, Notes) :-
+    Context = context(record: Record),
     Record = record(Number, _),
     recorded_notes(Record, Notes).
 
@@ -173,8 +186,8 @@ reversed(Partial, Notes0, Notes) :-
 %   @error domain_error(golog_procedure, Call) if it has entered the same call
 %          already: there is nothing that would end this
 
-entered(Kind, Call, x(M, O, Calls, Record, Effort, Mode),
-        x(M, O, [c(Kind, Call)|Calls], Record, Effort, Mode)) :-
+entered(Kind, Call, context(M, O, Calls, Record, Effort, Mode),
+        context(M, O, [c(Kind, Call)|Calls], Record, Effort, Mode)) :-
     (   again(Calls, Kind, Call, 0)
     ->  located(M, proc(Call), Where),
         format(atom(Text), '~wcyclic: ~q comes to itself again without a \c
@@ -200,7 +213,8 @@ again([c(Kind0, Call0)|Calls], Kind, Call, N) :-
 %   @error existence_error(golog_condition, Name/Arity)
 %   @error type_error(callable, Goal)
 
-call_of(Condition, Goal, x(M, _, _, _, _, _)) :-
+call_of(Condition, Goal, Context) :-
+    Context = context(module: M),
     (   callable(Goal)
     ->  true
     ;   must_be(callable, Goal)

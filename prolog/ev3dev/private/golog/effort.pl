@@ -9,6 +9,11 @@
             asks_history/1,             % +Effort
             how_far/2                   % +Effort, -Far
           ]).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+
+:- fields(effort(id, steps, deepest, limits, cpu, inferences, trial,
+                 watch, outer, asked)).
+:- fields(watch(closure, record, next)).
 
 /** <module> The effort and the limits of a search
 
@@ -43,8 +48,7 @@ effort(Limits, Options, Outer, Effort) :-
     (   Outer == none
     ->  Watch = none,
         Trial0 = false
-    ;   arg(8, Outer, Watch),
-        arg(7, Outer, Trial0)
+    ;   Outer = effort(watch: Watch, trial: Trial0)
     ),
     (   memberchk(simulate, Options)
     ->  Trial = true
@@ -76,15 +80,15 @@ counted(Depth, Effort) :-
 one_more(Depth, Effort) :-
     (   Effort == none
     ->  true
-    ;   arg(2, Effort, Steps0),
+    ;   Effort = effort(steps: Steps0),
         Steps is Steps0+1,
-        nb_setarg(2, Effort, Steps),
-        arg(3, Effort, Deepest),
+        set_field(Effort, effort(steps: Steps)),
+        Effort = effort(deepest: Deepest),
         (   Depth > Deepest
-        ->  nb_setarg(3, Effort, Depth)
+        ->  set_field(Effort, effort(deepest: Depth))
         ;   true
         ),
-        arg(9, Effort, Outer),
+        Effort = effort(outer: Outer),
         one_more(0, Outer)
     ).
 
@@ -96,7 +100,7 @@ polled(Effort) :-
     (   Effort == none
     ->  true
     ;   all_within(Effort),
-        arg(8, Effort, Watch),
+        Effort = effort(watch: Watch),
         (   Watch == none
         ->  true
         ;   looked(Watch, Effort)
@@ -106,9 +110,9 @@ polled(Effort) :-
 all_within(Effort) :-
     (   Effort == none
     ->  true
-    ;   arg(4, Effort, Limits),
+    ;   Effort = effort(limits: Limits),
         within(Limits, Effort),
-        arg(9, Effort, Outer),
+        Effort = effort(outer: Outer),
         all_within(Outer)
     ).
 
@@ -121,9 +125,9 @@ within([Limit|Limits], Effort) :-
     ).
 
 is_reached(steps(Most), Effort) :-
-    arg(2, Effort, Steps),
+    Effort = effort(steps: Steps),
     Steps > Most,
-    nb_setarg(2, Effort, Most).         % The next one is not tried.
+    set_field(Effort, effort(steps: Most)).  % The next one is not tried.
 is_reached(inferences(Most), Effort) :-
     spent(Effort, Inferences, _),
     Inferences > Most.
@@ -131,8 +135,8 @@ is_reached(seconds(Most), Effort) :-
     spent(Effort, _, Seconds),
     Seconds >= Most.
 
-spent(effort(_, _, _, _, Cpu0, Inferences0, _, _, _, _), Inferences,
-      Seconds) :-
+spent(Effort, Inferences, Seconds) :-
+    Effort = effort(cpu: Cpu0, inferences: Inferences0),
     statistics(inferences, Inferences1),
     Inferences is Inferences1-Inferences0,
     statistics(cputime, Cpu),
@@ -146,7 +150,7 @@ looked(Watch, Effort) :-
     ;   call(Closure, Record, Effort),
         get_time(Later),
         next_look(Later, Next),
-        nb_setarg(3, Watch, Next)
+        set_field(Watch, watch(next: Next))
     ).
 
 %!  in_trial(+Effort) is semidet.
@@ -154,7 +158,7 @@ looked(Watch, Effort) :-
 %   True if the robot of the simulator may stand where a plan has led it.
 
 in_trial(Effort) :-
-    arg(7, Effort, true).
+    Effort = effort(trial: true).
 
 %!  asks_history(+Effort) is det.
 %!  asked_history(+Effort) is semidet.
@@ -164,18 +168,18 @@ in_trial(Effort) :-
 asks_history(Effort) :-
     (   Effort == none
     ->  true
-    ;   nb_setarg(10, Effort, true),
-        arg(9, Effort, Outer),
+    ;   set_field(Effort, effort(asked: true)),
+        Effort = effort(outer: Outer),
         asks_history(Outer)
     ).
 
 asked_history(Effort) :-
-    arg(10, Effort, true).
+    Effort = effort(asked: true).
 
 %!  effort_id(+Effort, -Id) is det.
 
 effort_id(Effort, Id) :-
-    arg(1, Effort, Id).
+    Effort = effort(id: Id).
 
 %!  how_far(+Effort, -Far) is det.
 %
@@ -184,6 +188,5 @@ effort_id(Effort, Id) :-
 
 how_far(Effort, [ steps(Steps), depth(Deepest), inferences(Inferences),
                   seconds(Seconds) ]) :-
-    arg(2, Effort, Steps),
-    arg(3, Effort, Deepest),
+    Effort = effort(steps: Steps, deepest: Deepest),
     spent(Effort, Inferences, Seconds).

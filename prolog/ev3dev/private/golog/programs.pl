@@ -49,10 +49,10 @@ construct(search(_, _, _)).
 construct(searchc(_)).
 construct(searchc(_, _)).
 construct(searchn(_, _)).
-construct('$path'(_, _, _, _)).
+construct('$path'(_Program, _, _, _)).
 construct(gexec(_, _)).
 construct(gexec2(_, _)).
-construct(goal(_, _, _, _)).
+construct(goal(_Until, _, _, _)).
 construct(wndet(_, _)).
 construct(rndet(_, _)).
 construct(rpi(_, _)).

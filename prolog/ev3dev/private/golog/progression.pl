@@ -5,6 +5,7 @@
             entries_done/4              % +Entries, +Situation0, -Situation,
                                         % +Context
           ]).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
 :- use_module(library(assoc), [get_assoc/3, put_assoc/4]).
 :- use_module(library(lists), [reverse/2]).
 :- use_module(context, [context_mode/2, context_module/2]).
@@ -13,6 +14,8 @@
 :- use_module(situation, [initial_situation/1]).
 :- use_module(theory, [names_fluent/2]).
 :- use_module(values, [evaluated_arguments/4]).
+
+:- fields(open(count, fluent, value, condition, base)).
 
 /** <module> The situation after an action
 
@@ -39,7 +42,7 @@ situation(History, Situation, Context) :-
 %   result e(Fluent, Value) or e(Action, Outcome).
 
 done(Entry, S0, S, Context) :-
-    S0 = s(H, C0, Values0, Open0, Done0),
+    S0 = situation(H, C0, Values0, Open0, Done0),
     C is C0+1,
     effects(Entry, S0, Context, Effects),
     with_effects(Effects, C, S0, Context, Values0, Values, Open0, Open),
@@ -47,7 +50,7 @@ done(Entry, S0, S, Context) :-
     ->  put_assoc(Entry, Done0, true, Done)
     ;   Done = Done0
     ),
-    S = s([Entry|H], C, Values, Open, Done).
+    S = situation([Entry|H], C, Values, Open, Done).
 
 %!  entries_done(+Entries, +Situation0, -Situation, +Context) is det.
 %
@@ -98,7 +101,7 @@ with_effects([Effect|Effects], C, S0, Context, Values0, Values, Open0,
 %   Open0 without the older effects that one on Fluent hides: if its Condition
 %   is `true`, or if it is rigid and theirs is the same.
 
-without_hidden([], _, _, _, _, []).
+without_hidden([], _F, _P, _Base, _C, []).
 without_hidden([O|Os0], F, P, Base, C, Os) :-
     O = open(C1, F1, _, P1, Base1),
     (   C1 < C,
@@ -144,7 +147,7 @@ comparisons(P0, S, Context, M, P) :-
 %   Newest first; those of one action in the order of the clauses.
 
 after_same([O|Os0], C, New, [O|Os]) :-
-    O = open(C, _, _, _, _),
+    O = open(count: C),
     !,
     after_same(Os0, C, New, Os).
 after_same(Os, _, New, [New|Os]).

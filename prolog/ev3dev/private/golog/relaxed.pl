@@ -3,6 +3,7 @@
                                         % -Task
             task_plan/4                 % +Task, +Shortest, +Effort, -Plan
           ]).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
 :- use_module(library(assoc),
               [empty_assoc/1, get_assoc/3, list_to_assoc/2, put_assoc/4]).
 :- use_module(library(heaps),
@@ -15,6 +16,10 @@
               ]).
 :- use_module(theory, [has_clauses/2, has_possible_values/1]).
 :- use_module('../errors/errors', [throw_error/3]).
+
+:- fields(task(known, ops, rules, counters, uses, free)).
+:- fields(known(count, denied, goal, state)).
+:- fields(op(action, mask, add, delete, changes)).
 
 /** <module> Plans for domains whose fluents are true or false
 
@@ -51,7 +56,7 @@ task(M, Goal, Values, Effort, Task) :-
 ground_task(M, Goal, Values, Effort, Task) :-
     only_relations(M),
     \+ has_possible_values(M),
-    \+ ( member(Head, [causes_val(_, _, _, _), forget(_, _)]),
+    \+ ( member(Head, [causes_val(_, _Fluent, _, _), forget(_, _)]),
          has_clauses(M, Head) ),
     \+ ( member(_-V, Values), V \== true, V \== false ),
     ground_condition(Goal, M, GoalCondition),
@@ -217,7 +222,7 @@ with_rules(Ops, Known, task(Known, OpsOf, RulesOf, Counters, Uses, Free)) :-
               rule_facts(Mask, 0, Add, Delete, N, Denied, Facts, New) ),
             Rules1),
     findall(rule(I, Facts, New),
-            ( nth(Ops, 1, op(_, Mask, _, _, Changes), I),
+            ( nth(Ops, 1, op(mask: Mask, changes: Changes), I),
               member(change(If, Add, Delete), Changes),
               rule_facts(Mask, If, Add, Delete, N, Denied, Facts, New) ),
             Rules2),
@@ -274,7 +279,8 @@ facts(Mask, Facts) :-
 
 %   with_denied(+State, +Task, -Full): Full has all facts of State.
 
-with_denied(State, task(known(N, Denied, _, _), _, _, _, _, _), Full) :-
+with_denied(State, Task, Full) :-
+    Task = task(known: known(N, Denied, _, _)),
     (   Denied =:= 0
     ->  Full = State
     ;   Full is State \/ (\State /\ Denied)<<N
@@ -286,8 +292,8 @@ with_denied(State, task(known(N, Denied, _, _), _, _, _, _, _), Full) :-
 %   Fails if not even that reaches the goal.
 
 estimated(Full, Task, Estimate, Applicable, Helpful) :-
-    Task = task(Known, Ops, Rules, _, _, _),
-    Known = known(N, _, _, _),
+    Task = task(known: Known, ops: Ops, rules: Rules),
+    Known = known(count: N),
     started(Full, Task, Counters, Reasons, Fired),
     functor(Ops, _, OpCount),
     operators(Fired, OpCount, Applicable),
@@ -300,8 +306,9 @@ estimated(Full, Task, Estimate, Applicable, Helpful) :-
     arg(Reason, Rules, rule(_, Facts, _)),
     reasons(Facts, Rules, Reasons, Used, Helpful, 0, Estimate).
 
-started(Full, task(known(N, _, _, _), _, _, Counters0, Uses, Free),
+started(Full, task(Known, _, _, Counters0, Uses, Free),
         Counters, Reasons, Fired) :-
+    Known = known(count: N),
     duplicate_term(Counters0, Counters),
     Last is 2*N+1,
     functor(Reasons, reasons, Last),
@@ -321,7 +328,7 @@ given([Fact|Facts], Reasons) :-
 
 layers(Fired, Task, Counters, Reasons, GoalAt) :-
     Fired = [_|_],
-    Task = task(_, _, Rules, _, Uses, _),
+    Task = task(rules: Rules, uses: Uses),
     costs(Fired, Rules, Reasons, Costs0),
     keysort(Costs0, Costs),
     added(Costs, Rules, Reasons, [], Facts),
@@ -389,7 +396,7 @@ operators([Rule|Fired], OpCount, Ops) :-
     ),
     operators(Fired, OpCount, Ops1).
 
-reasons([], _, _, _, _, Count, Count).
+reasons([], _Rules, _Reasons, _Used, _Helpful, Count, Count).
 reasons([Fact|Facts], Rules, Reasons, Used, Helpful, Count0, Count) :-
     At is Fact+1,
     arg(At, Reasons, _-Rule),
@@ -413,7 +420,7 @@ reasons([Fact|Facts], Rules, Reasons, Used, Helpful, Count0, Count) :-
 %   reachable(+Task, +Ops0, -Ops): those that a relaxed plan can reach
 
 reachable(Task, Ops0, Ops) :-
-    Task = task(known(_, _, _, State), _, _, _, _, _),
+    Task = task(known: known(state: State)),
     with_denied(State, Task, Full),
     started(Full, Task, Counters, Reasons, Fired),
     \+ layers(Fired, Task, Counters, Reasons, 0),
@@ -426,7 +433,7 @@ reachable(Task, Ops0, Ops) :-
 %   Plan is a list of actions, a shortest one if Shortest is true.
 
 task_plan(Task, Shortest, Effort, Plan) :-
-    Task = task(known(_, _, _, State), Ops, _, _, _, _),
+    Task = task(known: known(state: State), ops: Ops),
     with_denied(State, Task, Full),
     estimated(Full, Task, Estimate, _, _),
     (   Shortest == true
@@ -442,12 +449,12 @@ task_plan(Task, Shortest, Effort, Plan) :-
 
 actions([], _, []).
 actions([I|Is], Ops, [A|As]) :-
-    arg(I, Ops, op(A, _, _, _, _)),
+    arg(I, Ops, op(action: A)),
     actions(Is, Ops, As).
 
 reaches_goal(State, Task) :-
     with_denied(State, Task, Full),
-    Task = task(known(_, _, Masks, _), _, _, _, _, _),
+    Task = task(known: known(goal: Masks)),
     member(Mask, Masks),
     Full /\ Mask =:= Mask,
     !.
@@ -472,9 +479,9 @@ changed([change(Mask, Add1, Delete1)|Changes], Full, Add0, Delete0,
 %   condition has fact I as its last, the last argument those that have none.
 
 by_fact(Task, ByFact) :-
-    Task = task(known(N, _, _, _), Ops, _, _, _, _),
+    Task = task(known: known(count: N), ops: Ops),
     findall(Fact-(I-Mask),
-            ( arg(I, Ops, op(_, Mask, _, _, _)),
+            ( arg(I, Ops, op(mask: Mask)),
               ( Mask =:= 0 -> Fact is 2*N ; Fact is msb(Mask) ) ),
             Pairs0),
     keysort(Pairs0, Pairs),
@@ -497,24 +504,24 @@ shortest(Layer, Seen, Depth, Task, ByFact, Effort, Path) :-
         shortest(Layer1, Seen1, Depth1, Task, ByFact, Effort, Path)
     ).
 
-all_next([], _, _, _, _, Next, Next).
+all_next([], _Depth, _Task, _ByFact, _Effort, Next, Next).
 all_next([State-Path|Layer], Depth, Task, ByFact, Effort, Next0, Next) :-
     counted(Depth, Effort),
     with_denied(State, Task, Full),
-    Task = task(known(N, _, _, _), Ops, _, _, _, _),
+    Task = task(known: known(count: N), ops: Ops),
     Always is 2*N,
     facts(Full, Facts),
     of_facts([Always|Facts], ByFact, Ops, State, Full, Path, Next0, Next1),
     all_next(Layer, Depth, Task, ByFact, Effort, Next1, Next).
 
-of_facts([], _, _, _, _, _, Next, Next).
+of_facts([], _ByFact, _Ops, _State, _Full, _Path, Next, Next).
 of_facts([Fact|Facts], ByFact, Ops, State, Full, Path, Next0, Next) :-
     At is Fact+1,
     arg(At, ByFact, Candidates),
     next(Candidates, Ops, State, Full, Path, Next0, Next1),
     of_facts(Facts, ByFact, Ops, State, Full, Path, Next1, Next).
 
-next([], _, _, _, _, Next, Next).
+next([], _Ops, _State, _Full, _Path, Next, Next).
 next([I-Mask|Candidates], Ops, State, Full, Path, Next0, Next) :-
     (   Full /\ Mask =:= Mask
     ->  applied(I, State, Full, Ops, State1),
@@ -547,7 +554,7 @@ unseen([Old|Olds], State, Path, Next, Layer, Seen) :-
 
 best_first(Heap0, Seen0, Task, Effort, Path) :-
     get_from_heap(Heap0, _, node(Depth, State0, I, Path0), Heap1),
-    Task = task(_, Ops, _, _, _, _),
+    Task = task(ops: Ops),
     (   I == none
     ->  State = State0,
         Path1 = Path0
@@ -571,7 +578,7 @@ best_first(Heap0, Seen0, Task, Effort, Path) :-
         best_first(Heap, Seen, Task, Effort, Path)
     ).
 
-nodes([], _, _, _, _, _, Heap, Heap).
+nodes([], _Helpful, _Estimate, _Depth, _State, _Path, Heap, Heap).
 nodes([I|Is], Helpful, Estimate, Depth, State, Path, Heap0, Heap) :-
     arg(I, Helpful, Helps),
     (   nonvar(Helps)

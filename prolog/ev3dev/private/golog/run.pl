@@ -6,6 +6,7 @@
                                         % +Context
             state_of_run/3              % +Module, -Program, -Situation
           ]).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(context,
               [ context/3, context_module/2, print_again/1, recorded_notes/2,
@@ -35,12 +36,18 @@
                 sensing_entries/4, stops_run/1, watch_begins/1
               ]).
 
+:- fields(now(module, situation, program)).
+:- fields(began(cpu, clock)).
+:- fields(cycle(context, agent, settings, deadline, again)).
+:- fields(run_settings(words, trace, on_failed, device, limit, timeout,
+                       initial, keep)).
+
 /** <module> The online run of a program
 
 The cycle: what has happened by itself enters the history; if the program may
 end, the run ends; else the first step that the program offers is taken, and
 its action executed. Settings are
-settings(Words, Trace, OnFailed, Device, Limit, Timeout, Initial, Keep).
+run_settings(Words, Trace, OnFailed, Device, Limit, Timeout, Initial, Keep).
 */
 
 %!  run_online(:Program, +Settings, -Reason, -History) is det.
@@ -51,7 +58,8 @@ settings(Words, Trace, OnFailed, Device, Limit, Timeout, Initial, Keep).
 :- meta_predicate run_online(:, +, -, -).
 
 run_online(M:E, Settings, Reason, History) :-
-    Settings = settings(Words, _, _, Device, _, Timeout, Initial, Keep),
+    Settings = run_settings(words: Words, device: Device, timeout: Timeout,
+                            initial: Initial, keep: Keep),
     prepare(M),
     print_again(M),
     context(M, [online|Words], X),
@@ -68,7 +76,7 @@ run_online(M:E, Settings, Reason, History) :-
           initialized(M),
           deadline(Timeout, Robot, Deadline),
           cycle(at(E1, S, quiet), 0,
-                r(X, Agent, Settings, Deadline, again(0)), Reason),
+                cycle(X, Agent, Settings, Deadline, again(0)), Reason),
           nb_setarg(1, Ended, Reason) ),
         Catcher,
         finished(M, Robot, Ended, Catcher)),
@@ -113,7 +121,8 @@ deadline(Timeout, Robot, Deadline) :-
         Deadline is Now+Timeout
     ).
 
-is_over(r(_, agent(_, Robot, _, _), _, Deadline, _)) :-
+is_over(Cycle) :-
+    Cycle = cycle(agent: agent(_, Robot, _, _), deadline: Deadline),
     Deadline \== infinite,
     clock(Robot, Now),
     Now >= Deadline.
@@ -175,8 +184,8 @@ situation_of_run(History, Module, S, X) :-
 
 note_state(E, S) :-
     b_getval(ev3dev_golog_now, Now),
-    nb_linkarg(2, Now, S),
-    nb_linkarg(3, Now, E).
+    link_field(Now, now(situation: S)),
+    link_field(Now, now(program: E)).
 
 %!  state_of_run(+Module, -Program, -Situation) is semidet.
 %
@@ -202,17 +211,17 @@ situation_noted(Now) :-
 %   cycle(+State, +Steps, +Run, -Reason). A state is at(Program, Situation,
 %   News). News is `news` if an exogenous action has come since the last
 %   primitive action and since the last wait, else `quiet`. A run is
-%   r(Context, Agent, Settings, Deadline, Again): again(N) counts how often in
-%   a row a step was given up for news, in place.
+%   cycle(Context, Agent, Settings, Deadline, Again): again(N) counts how
+%   often in a row a step was given up for news, in place.
 
 cycle(State0, Steps0, R0, Reason) :-
-    R0 = r(_, Agent, Settings, _, _),
+    R0 = cycle(agent: Agent, settings: Settings),
     exogenous_seen(Agent, Actions),
     happened(Actions, State0, at(E, S1, News), R0, Stop),
     note_state(E, S1),
     Steps is Steps0+1,
     watching(Steps, S1, R0, R),
-    arg(5, Settings, Limit),
+    Settings = run_settings(limit: Limit),
     (   Stop == stop
     ->  Reason = stopped
     ;   may_end(E, S1, R, Left)
@@ -234,15 +243,16 @@ cycle(State0, Steps0, R0, Reason) :-
 %   step Number, during which watched/5 is called.
 
 watching(Number, S, R0, R) :-
-    R0 = r(X0, Agent, Settings, Deadline, Again),
+    R0 = cycle(X0, Agent, Settings, Deadline, Again),
     statistics(cputime, Now),
     Watch = watched(S, R0, began(Now, none)),
     recording(Number, ev3dev_golog_run:Watch, X0, X),
-    R = r(X, Agent, Settings, Deadline, Again).
+    R = cycle(X, Agent, Settings, Deadline, Again).
 
 %   Left is unbound, or why the question was given up.
 
-may_end(E, S, r(X, _, _, _, _), Left) :-
+may_end(E, S, Cycle, Left) :-
+    Cycle = cycle(context: X),
     catch(is_final(E, S, X), '$golog_left'(Left), true).
 
 ending(Left, State, Steps, R, Reason) :-
@@ -277,7 +287,7 @@ happened([Seen|As], State0, State, R, Stop) :-
     ).
 
 entered(Entry, S0, S, R) :-
-    R = r(X, _, _, _, _),
+    R = cycle(context: X),
     done(Entry, S0, S, X),
     situation_count(S, C),
     record(C, Entry).
@@ -288,8 +298,8 @@ entered_all([Entry|Entries], S0, S, R) :-
     entered_all(Entries, S1, S, R).
 
 traced(Event, R) :-
-    R = r(_, _, Settings, _, _),
-    arg(2, Settings, Trace),
+    R = cycle(settings: Settings),
+    Settings = run_settings(trace: Trace),
     (   Trace = trace(Closure)
     ->  ignore(call(Closure, Event))
     ;   true
@@ -303,7 +313,7 @@ traced(Event, R) :-
 %   reason why the run ends.
 
 taken(State0, R, State, Next) :-
-    R = r(X, _, _, _, _),
+    R = cycle(context: X),
     State0 = at(E0, S0, _),
     unblock,
     (   catch(step(E0, S0, E1, S1, X), '$golog_left'(Why),
@@ -326,7 +336,7 @@ taken(State0, R, State, Next) :-
 performed_or_left(Left, E, S, State0, R, State, Next) :-
     (   var(Left)
     ->  performed(E, S, State0, R, State, Next),
-        R = r(_, _, _, _, Again),
+        R = cycle(again: Again),
         nb_setarg(1, Again, 0)
     ;   State = State0,
         Next = Left
@@ -350,7 +360,7 @@ watched(S0, R, Began, Record, Effort) :-
     ->  how_far(Effort, Far),
         print_message(informational, golog(out_of_time(Far))),
         left(timeout)
-    ;   R = r(_, Agent0, _, _, _),
+    ;   R = cycle(agent: Agent0),
         seen_meanwhile(Agent0, Began, Effort, New, All),
         forall(member(A, New), traced(exog(A), R)),
         New = [_|_],
@@ -366,8 +376,9 @@ is_over(R, _, Effort) :-
     \+ in_trial(Effort),
     is_over(R),
     !.
-is_over(r(_, _, Settings, _, _), began(Cpu0, _), _) :-
-    arg(6, Settings, Timeout),
+is_over(Cycle, began(Cpu0, _), _) :-
+    Cycle = cycle(settings: Settings),
+    Settings = run_settings(timeout: Timeout),
     Timeout \== infinite,
     statistics(cputime, Cpu),
     Cpu-Cpu0 >= Timeout.
@@ -383,14 +394,15 @@ seen_meanwhile(agent(M, Robot0, Queue, Device), Began, Effort, New, All) :-
 stands_still(Began, Effort) :-
     (   in_trial(Effort)
     ->  true
-    ;   arg(2, Began, Before),
+    ;   Began = began(_, Before),
         clock(robot, Now),
-        nb_setarg(2, Began, Now),
+        set_field(Began, began(clock: Now)),
         ( Before == none ; Now =:= Before )
     ),
     !.
 
-is_for_news(New, All, S0, r(X, _, _, _, Again), Record) :-
+is_for_news(New, All, S0, Cycle, Record) :-
+    Cycle = cycle(context: X, again: Again),
     (   member(A, New),
         stops_run(A)
     ->  true
@@ -404,8 +416,8 @@ is_for_news(New, All, S0, r(X, _, _, _, Again), Record) :-
     ).
 
 traced_step(E0, R) :-
-    R = r(_, _, Settings, _, _),
-    (   arg(2, Settings, none)
+    R = cycle(settings: Settings),
+    (   Settings = run_settings(trace: none)
     ->  true
     ;   forall(replanned_since(Again), traced(replanned(Again), R)),
         program_shown(E0, E),
@@ -427,7 +439,7 @@ performed(E, S, State0, R, State, Next) :-
         newest(More, S, [Entry|Before]),
         record_before(Before, C),
         (   mark(Entry, Use),
-            R = r(X, _, _, _, _),
+            R = cycle(context: X),
             context_module(X, M),
             \+ is_kind(action, Entry, M)
         ->  (   Use == wait
@@ -463,7 +475,7 @@ mark(e(_, _), kept).
 
 acted(A, E, S1, State0, R, State, Next) :-
     State0 = at(E0, S0, News),
-    R = r(X, Agent, Settings, _, _),
+    R = cycle(X, Agent, Settings, _, _),
     Agent = agent(M, Robot, _, _),
     situation_history(S0, History),
     traced(action(A), R),
@@ -490,7 +502,7 @@ acted(A, E, S1, State0, R, State, Next) :-
     ->  entered(interrupted(A), S0, S, R),
         State = at(E0, S, News),
         Next = on
-    ;   arg(3, Settings, OnFailed),
+    ;   Settings = run_settings(on_failed: OnFailed),
         OnFailed \== backtrack,
         entered(failed(A), S0, S, R),
         State = at(E, S, News),
@@ -538,7 +550,7 @@ record_before([Entry|Entries], C1) :-
 :- public is_to_end/4.
 
 is_to_end(E0, E, S0, R) :-
-    R = r(X, Agent, _, _, _),
+    R = cycle(context: X, agent: Agent),
     exogenous_noticed(Agent, New, All),
     forall(member(A, New), traced(exog(A), R)),
     (   is_over(R)
@@ -558,7 +570,7 @@ is_to_end(E0, E, S0, R) :-
 
 waited(E, State0, R, State) :-
     State0 = at(_, S0, News),
-    R = r(_, Agent, _, Deadline, _),
+    R = cycle(agent: Agent, deadline: Deadline),
     Agent = agent(_, Robot, Queue, _),
     (   News == news
     ->  State = at(E, S0, quiet)

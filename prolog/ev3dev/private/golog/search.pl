@@ -485,7 +485,7 @@ planned_branch(P, E, S, Depth, Plan, X) :-
     ;   planned(E, S, Depth, Plan, X)
     ).
 
-branches_planned([], _, _, _, _, [], _).
+branches_planned([], _P, _E, _S, _Depth, [], _X).
 branches_planned([Test-Case|Cases], P, E, S0, Depth, [Test-Plan|Plans], X) :-
     assumed(Case, S0, S),
     planned_branch(P, E, S, Depth, Plan, X),
@@ -588,7 +588,7 @@ achieving([A|As], E, [p(E, A)|Path]) :-
 state_of(S, X, state(Pairs)) :-
     fluents_now(S, X, Pairs).
 
-situation_of(state(Pairs), s([], 0, Values, [], Done)) :-
+situation_of(state(Pairs), situation([], 0, Values, [], Done)) :-
     valued(Pairs, Valued),
     list_to_assoc(Valued, Values),
     empty_assoc(Done).

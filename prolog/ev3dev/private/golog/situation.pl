@@ -10,17 +10,20 @@
             assumed/3,                  % +Case, +Situation0, -Situation
             is_assumed/3                % +Condition, +Situation, -Truth
           ]).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
 :- use_module(library(assoc),
               [ assoc_to_keys/2, assoc_to_list/2, empty_assoc/1, get_assoc/3,
                 put_assoc/4
               ]).
 :- use_module(library(lists), [member/2]).
 
+:- fields(situation(history, count, values, open, done)).
+
 /** <module> Situations
 
 A situation is what a history makes of the initial one:
 
-    s(History, Count, Values, Open, Done)
+    situation(History, Count, Values, Open, Done)
 
 History is a list, newest first, of actions and sensing results, perhaps only
 the newest of them; Count counts all. Values is an AVL tree with the value of
@@ -38,7 +41,7 @@ interpreter for high-level programs with sensing (1999).
 %
 %   Situation is the one in which nothing has happened.
 
-initial_situation(s([], 0, Empty, [], Empty)) :-
+initial_situation(situation([], 0, Empty, [], Empty)) :-
     empty_assoc(Empty).
 
 %!  situation_history(+Situation, -History) is det.
@@ -47,9 +50,11 @@ initial_situation(s([], 0, Empty, [], Empty)) :-
 %   History has the entries of Situation, or the newest of them; Count is how
 %   many there are in all.
 
-situation_history(s(History, _, _, _, _), History).
+situation_history(Situation, History) :-
+    Situation = situation(history: History).
 
-situation_count(s(_, Count, _, _, _), Count).
+situation_count(Situation, Count) :-
+    Situation = situation(count: Count).
 
 %!  situation_state(+Situation, -State) is semidet.
 %
@@ -57,7 +62,8 @@ situation_count(s(_, Count, _, _, _), Count).
 %   future, but for conditions that ask what was done. Fails if there are
 %   effects that are still to be decided.
 
-situation_state(s(_, _, Values, [], _), State) :-
+situation_state(Situation, State) :-
+    Situation = situation(values: Values, open: []),
     assoc_to_list(Values, Pairs),
     untimed(Pairs, State).
 
@@ -69,7 +75,8 @@ untimed([F-v(_, V)|Pairs], [F-V|State]) :-
 %
 %   Situation has only the newest Length entries of the history in its list.
 
-history_shortened(Length, s(H0, C, V, O, D), s(H, C, V, O, D)) :-
+history_shortened(Length, situation(H0, C, V, O, D),
+                  situation(H, C, V, O, D)) :-
     first_of(Length, H0, H).
 
 first_of(N, List0, List) :-
@@ -85,12 +92,13 @@ first_of(N, List0, List) :-
 %
 %   Situation has Entry in its history; no fluent changes.
 
-marked(Entry, s(H, C0, V, O, D), s([Entry|H], C, V, O, D)) :-
+marked(Entry, situation(H, C0, V, O, D), situation([Entry|H], C, V, O, D)) :-
     C is C0+1.
 
 %!  was_done(?Entry, +Situation) is nondet.
 
-was_done(Entry, s(_, _, _, _, Done)) :-
+was_done(Entry, Situation) :-
+    Situation = situation(done: Done),
     (   ground(Entry)
     ->  get_assoc(Entry, Done, _)
     ;   assoc_to_keys(Done, Entries),
@@ -101,7 +109,8 @@ was_done(Entry, s(_, _, _, _, Done)) :-
 %
 %   The values of Fluents are still to be sensed.
 
-all_open(Fs, s(H, C, Values0, Open, Done), s(H, C, Values, Open, Done)) :-
+all_open(Fs, situation(H, C, Values0, Open, Done),
+         situation(H, C, Values, Open, Done)) :-
     open_values(Fs, v(C, '$sensed'), Values0, Values).
 
 open_values([], _, Values, Values).
@@ -113,7 +122,8 @@ open_values([F|Fs], Value, Values0, Values) :-
 %
 %   Case is is(Fluent, Value), or holds(Condition, Truth).
 
-assumed(Case, s(H, C, Values0, Open, Done), s(H, C, Values, Open, Done)) :-
+assumed(Case, situation(H, C, Values0, Open, Done),
+        situation(H, C, Values, Open, Done)) :-
     (   Case = is(F, V)
     ->  put_assoc(F, Values0, v(C, V), Values)
     ;   Case = holds(P, Truth),
@@ -125,7 +135,8 @@ assumed(Case, s(H, C, Values0, Open, Done), s(H, C, Values, Open, Done)) :-
 %   The Truth of Condition has been assumed since the last of its open fluents
 %   was sensed.
 
-is_assumed(P, s(_, _, Values, _, _), Truth) :-
+is_assumed(P, Situation, Truth) :-
+    Situation = situation(values: Values),
     ground(P),
     get_assoc('$assumed'(P), Values, v(C, Truth)),
     \+ ( open_since(P, Values, C1),

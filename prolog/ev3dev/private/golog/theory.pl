@@ -109,11 +109,17 @@ declare_missing(Module) :-
     (   vocabulary(Name/Arity),
         functor(Head, Name, Arity),
         \+ predicate_property(Module:Head, dynamic),
-        \+ predicate_property(Module:Head, number_of_clauses(_)),
+        \+ has_own(Module, Head),
         declare(Module, Name/Arity),
         fail
     ;   true
     ).
+
+%   Prolog itself may have one, as rule/3.
+
+has_own(Module, Head) :-
+    predicate_property(Module:Head, number_of_clauses(_)),
+    \+ predicate_property(Module:Head, built_in).
 
 %!  has_clauses(+Module, +Head) is semidet.
 %
@@ -291,8 +297,8 @@ is_sensing_action(Action, Module) :-
     \+ \+ Module:senses(Action, _),
     !.
 is_sensing_action(Action, Module) :-
-    has_clauses(Module, senses(_, _, _, _, _)),
-    \+ \+ Module:senses(Action, _, _, _, _),
+    has_clauses(Module, senses(_, _, _Fluent, _, _)),
+    \+ \+ Module:senses(Action, _, _Of, _, _),
     !.
 is_sensing_action(Action, Module) :-
     has_possible_values(Module),
@@ -304,8 +310,8 @@ is_sensing_action(Action, Module) :-
 
 rules_out(Action, Module) :-
     (   Module:senses(Action)
-    ;   Module:settles(Action, _, _, _, _)
-    ;   Module:rejects(Action, _, _, _, _)
+    ;   Module:settles(Action, _, _Fluent, _, _)
+    ;   Module:rejects(Action, _, _Fluent, _, _)
     ),
     !.
 

@@ -10,6 +10,7 @@
                                         % +Context
             fluents_now/3               % +Situation, +Context, -Pairs
           ]).
+:- use_module('../basics/fields', [goal_expansion/2]).
 :- use_module(library(assoc), [assoc_to_keys/2, get_assoc/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(context,
@@ -52,7 +53,8 @@ fluent_value(F, V, S, Context) :-
 
 %   Fluents whose declaration leaves variables: those with a value.
 
-sort_if_open(Fs0, F, s(_, _, Values, _, _), M, Fs) :-
+sort_if_open(Fs0, F, Situation, M, Fs) :-
+    Situation = situation(values: Values),
     (   ground(Fs0)
     ->  Fs = Fs0
     ;   assoc_to_keys(Values, Keys),
@@ -71,7 +73,8 @@ sort_if_open(Fs0, F, s(_, _, Values, _, _), M, Fs) :-
 %   Value is that of the ground Fluent; in the mode `possible`, on
 %   backtracking each possible one.
 
-value(F, V, s(_, _, Values, Open, _), Context, M) :-
+value(F, V, Situation, Context, M) :-
+    Situation = situation(values: Values, open: Open),
     (   get_assoc(F, Values, v(C, V0))
     ->  true
     ;   C = 0,
@@ -148,7 +151,7 @@ no_initial_value(F, M, Context) :-
 %   or '$possible'(Values), in standard order.
 
 fluents_now(S, Context, Pairs) :-
-    S = s(_, _, Values, _, _),
+    S = situation(values: Values),
     context_module(Context, M),
     in_mode(stored, Context, Stored),
     assoc_to_keys(Values, Fs1),
@@ -167,7 +170,7 @@ fluents_now(S, Context, Pairs) :-
 
 known_value(F, V, S, Context) :-
     context_module(Context, M),
-    S = s(_, _, Values, _, _),
+    S = situation(values: Values),
     (   get_assoc(F, Values, _)
     ->  \+ F = '$assumed'(_)
     ;   is_kind(initial, F, M)
@@ -224,7 +227,8 @@ with_values(T0, T, S, Context, M) :-
 
 %!  known_or_declared(+Fluent, +Situation, +Module) is semidet.
 
-known_or_declared(F, s(_, _, Values, _, _), M) :-
+known_or_declared(F, Situation, M) :-
+    Situation = situation(values: Values),
     (   ground(F),
         get_assoc(F, Values, _)
     ->  true

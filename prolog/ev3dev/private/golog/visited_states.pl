@@ -3,6 +3,7 @@
             tried/5,                    % :Goal, +Key, +Left, +Cut, +Context
             states_forgotten/1          % +Effort
           ]).
+:- use_module('../basics/fields', [goal_expansion/2]).
 :- use_module(context, [context_effort/2]).
 :- use_module(situation, [situation_state/2]).
 :- use_module(effort, [asked_history/1, effort_id/2, in_trial/1]).
@@ -34,7 +35,7 @@ most(100000).
 
 state_key(E, S, X, Key) :-
     context_effort(X, Effort),
-    arg(2, Effort, Steps),
+    Effort = effort(steps: Steps),
     short(Short),
     Steps > Short,
     \+ asked_history(Effort),
@@ -112,5 +113,5 @@ complete(Cut, Before, Left, Steps) :-
 
 states_forgotten(Effort) :-
     effort_id(Effort, Id),
-    nb_setarg(10, Effort, true),
+    set_field(Effort, effort(asked: true)),
     retractall(known(_, Id, _)).

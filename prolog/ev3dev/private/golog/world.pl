@@ -444,8 +444,8 @@ value_translated(A, Value0, M, Value) :-
 %   for each Fluent of senses/2.
 
 sensing_entries(A, Value, M, Entries) :-
-    (   has_clauses(M, senses(_, _, _, _, _)),
-        \+ \+ M:senses(A, _, _, _, _)
+    (   has_clauses(M, senses(_, _, _Fluent, _, _)),
+        \+ \+ M:senses(A, _, _Of, _, _)
     ->  Entries = [e(A, Value)]
     ;   has_possible_values(M),
         rules_out(A, M)

@@ -14,6 +14,7 @@
             must_be_cell/1,             % +Cell
             must_be_state/2             % +Map, +State
           ]).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, list_to_assoc/2]).
 :- use_module('../checks/checks', [must_be/2]).
@@ -24,6 +25,8 @@
 :- use_module(compass).
 :- use_module('../checks/arguments', [must_be_options/3]).
 :- use_module('../native/native', [grid_drawn_/2]).
+
+:- fields(map(bounds, neighbors, costs, obstacles, free, start)).
 
 /** <module> Maps of grids
 
@@ -174,7 +177,8 @@ grid_unknown(map(Bounds, Neighbors, Costs, _, _, Start), Free,
 %
 %   True if State is the start drawn in the map's rows.
 
-grid_start(map(_, _, _, _, _, Start), State) :-
+grid_start(Map, State) :-
+    Map = map(start: Start),
     Start \== none,
     State = Start.
 
@@ -182,7 +186,8 @@ grid_start(map(_, _, _, _, _, Start), State) :-
 %
 %   True if Cell is on the map.
 
-grid_cell(map(bounds(X1, Y1, X2, Y2), _, _, _, _, _), [X, Y]) :-
+grid_cell(Map, [X, Y]) :-
+    Map = map(bounds: bounds(X1, Y1, X2, Y2)),
     between(Y1, Y2, Y),
     between(X1, X2, X).
 
@@ -190,14 +195,16 @@ grid_cell(map(bounds(X1, Y1, X2, Y2), _, _, _, _, _), [X, Y]) :-
 %
 %   True if each cell of Map has 4 or 8 neighbors.
 
-grid_neighbors(map(_, Neighbors, _, _, _, _), Neighbors).
+grid_neighbors(Map, Neighbors) :-
+    Map = map(neighbors: Neighbors).
 
 %!  grid_bounds(+Map, -X1, -Y1, -X2, -Y2) is det.
 %
 %   True if the lower left cell of Map is `[X1, Y1]`, and the upper right one
 %   `[X2, Y2]`.
 
-grid_bounds(map(bounds(X1, Y1, X2, Y2), _, _, _, _, _), X1, Y1, X2, Y2).
+grid_bounds(Map, X1, Y1, X2, Y2) :-
+    Map = map(bounds: bounds(X1, Y1, X2, Y2)).
 
 %!  free_cell(+Map, ?Cell) is nondet.
 %
@@ -205,7 +212,7 @@ grid_bounds(map(bounds(X1, Y1, X2, Y2), _, _, _, _, _), X1, Y1, X2, Y2).
 
 free_cell(Map, Cell) :-
     grid_cell(Map, Cell),
-    Map = map(_, _, _, Obstacles, Free, _),
+    Map = map(obstacles: Obstacles, free: Free),
     \+ get_assoc(Cell, Obstacles, _),
     (   Free == any
     ->  true
@@ -216,7 +223,8 @@ free_cell(Map, Cell) :-
 %
 %   True if Direction is one of the map's, clockwise from `[0,1]` on.
 
-grid_direction(map(_, Neighbors, _, _, _, _), Direction) :-
+grid_direction(Map, Direction) :-
+    Map = map(neighbors: Neighbors),
     grid_directions(Neighbors, Directions),
     (   ground(Direction)
     ->  memberchk(Direction, Directions)
@@ -243,7 +251,8 @@ grid_step(Map, Action, state(Cell, Direction), Next) :-
 %
 %   True if Turn, `left` or `right`, leads from one direction to the next.
 
-grid_turn(map(_, Neighbors, _, _, _, _), Turn, Direction, Next) :-
+grid_turn(Map, Turn, Direction, Next) :-
+    Map = map(neighbors: Neighbors),
     direction_turned(Turn, Neighbors, Direction, Next).
 
 %!  grid_costs(+Map, -Straight, -Diagonal, -Turn) is det.
@@ -251,15 +260,17 @@ grid_turn(map(_, Neighbors, _, _, _, _), Turn, Direction, Next) :-
 %   True if these are the costs of a straight and a diagonal move, and of a
 %   turn to the next direction.
 
-grid_costs(map(_, _, costs(Straight, Diagonal, Turn), _, _, _),
-           Straight, Diagonal, Turn).
+grid_costs(Map,
+           Straight, Diagonal, Turn) :-
+    Map = map(costs: costs(Straight, Diagonal, Turn)).
 
 %!  grid_cost(+Map, +State, +Action, -Cost) is det.
 %
 %   True if Action costs that much in State.
 
-grid_cost(map(_, _, costs(Straight, Diagonal, Turn), _, _, _),
+grid_cost(Map,
           state(_, [DX, DY]), Action, Cost) :-
+    Map = map(costs: costs(Straight, Diagonal, Turn)),
     (   Action \== move
     ->  Cost = Turn
     ;   DX * DY =:= 0

@@ -4,6 +4,7 @@
                                         % +Speed, -Reason
             planned/2                   % ?Brick, -Cells
           ]).
+:- use_module('../basics/fields', [goal_expansion/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../drive', [face/2, go_to/4]).
 :- use_module('../run/brick', [brick/1]).
@@ -95,7 +96,8 @@ turn_to(Direction, _, Outcome) :-
     state_position(_, Direction),
     !,
     Outcome = done.
-turn_to(Direction, metric(_, _, _, _, Speed), Outcome) :-
+turn_to(Direction, Metric, Outcome) :-
+    Metric = metric(speed: Speed),
     direction_heading(Direction, Heading),
     (   face(Heading, [speed(Speed), reason(Reason)])
     ->  true
@@ -164,7 +166,8 @@ look_into([Beside|Rest], Cell, Metric, Outcome) :-
 
 %   Look into the Cell ahead. What is farther away stands in another one.
 
-look(Cell, Direction, metric(Cm, _, _, Eye, _), Outcome) :-
+look(Cell, Direction, Metric, Outcome) :-
+    Metric = metric(cm: Cm, eye: Eye),
     (   us_dist_cm(_, Distance)
     ->  (   reach(Direction, Cm, Reach),
             Eye + Distance =< Reach
@@ -203,7 +206,7 @@ uncertainty([DX, DY], Deviation) :-
 %   behind.
 
 go(Cell, Next, Direction, Metric, Outcome) :-
-    Metric = metric(_, _, _, _, Speed),
+    Metric = metric(speed: Speed),
     go_to_cell(Next, Direction, Metric, Speed, Reason),
     (   Reason == reached
     ->  set_state(Next, Direction),
@@ -224,7 +227,7 @@ go(Cell, Next, Direction, Metric, Outcome) :-
     ).
 
 may_be_in(Cell, Direction, Metric) :-
-    Metric = metric(Cm, _, _, _, _),
+    Metric = metric(cm: Cm),
     Direction = [DX, DY],
     cell_place(Metric, Cell, X, Y),
     pose(AtX, AtY, _),

@@ -9,6 +9,7 @@
             grid_metric/2,              % +Options, -Metric
             set_pose_in/3               % +Metric, +Cell, +Direction
           ]).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
 :- use_module('../run/brick', [brick/1]).
 :- use_module('../errors/public_clauses', [term_expansion/4]).
 :- use_module('../explain/hints', [fail_because/1]).
@@ -20,6 +21,8 @@
               [ number_option/4, number_value/2, number_value/3, option/2,
                 option/3, take_options/4
               ]).
+
+:- fields(metric(cm, x, y, eye, speed)).
 
 /** <module> A robot on a grid
 

@@ -43,7 +43,7 @@ read_libraries :-
     offers(Core, Common),
     findall(File, ( pack_file('', File), is_apart(File) ), Files),
     add_libraries(Files, Common),
-    retractall(head_(_, _, _, _)).
+    retractall(head_(_File, _, _, _)).
 
 add_libraries([], _).
 add_libraries([File|Files], Others0) :-

@@ -54,7 +54,7 @@ one_loaded([source(_, Source, _)|Sources]) :-
 %   Load nothing compiled from now on.
 
 use_sources :-
-    retractall(usable(_, _, _, _)).
+    retractall(usable(_Unit, _, _, _)).
 
 % ---------------- LOADING
 

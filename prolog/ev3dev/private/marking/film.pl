@@ -1,6 +1,8 @@
 :- module(ev3dev_marking_film,
           [ film/3                      % +Exercise, +Seed, +Result
           ]).
+:- use_module('../basics/fields', [goal_expansion/2]).
+:- use_module(records, []).
 :- use_module('../../sim', [with_sim/3]).
 :- use_module('../../sim_views', [sim_svg/1]).
 :- use_module(read, [exercise_setting/3, exercise_world/3]).
@@ -18,7 +20,8 @@ that a slider moves.
 %
 %   Print HTML. Result is as of marked_run/5.
 
-film(Exercise, Seed, result(_, Seconds, _, _, _, Film, Collisions)) :-
+film(Exercise, Seed, Result) :-
+    Result = result(seconds: Seconds, film: Film, collisions: Collisions),
     world_picture(Exercise, Seed, Head, Robot),
     write(Head),
     way(Film, Seconds),

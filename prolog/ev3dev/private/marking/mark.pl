@@ -3,6 +3,8 @@
             tried/3,                    % +Exercise, +File, +Options
             check_solution/2            % +Exercise, +Options
           ]).
+:- use_module('../basics/fields', [goal_expansion/2]).
+:- use_module(records, []).
 :- use_module('../../sim_batch', [sim_batch/5]).
 :- use_module('../../sim_fenced', [can_enclose/0]).
 :- use_module('../checks/arguments', [option/2, option/3]).
@@ -34,7 +36,7 @@ marks(Exercise0, Files, Options, Marks) :-
     read_exercise(Exercise, Read),
     seeds(Read, all, Options, Seeds),
     marked_files(Exercise, Read, Files, Seeds, Options, Marked),
-    findall(Mark, member(marked(_, Mark, _, _), Marked), Marks),
+    findall(Mark, member(marked(mark: Mark), Marked), Marks),
     (   option(out(Directory), Options)
     ->  All = [html, csv, junit, json, gradescope],
         option(formats(Formats), Options, All),
@@ -85,7 +87,7 @@ check_solution(Exercise0, Options) :-
     file_directory_name(Exercise, Folder),
     directory_file_path(Folder, Solution, File),
     printed(Exercise, Read, all, File, Options, Marked),
-    Marked = marked(_, mark(_, _, _, _, Runs, _), _, _),
+    Marked = marked(mark: mark(runs: Runs)),
     findall(Earned-Seed, member(run(Seed, Earned, _, _), Runs), Pairs),
     keysort(Pairs, [Least-LeastSeed|_]),
     findall(Earned, member(Earned-_, Pairs), All),
@@ -94,7 +96,9 @@ check_solution(Exercise0, Options) :-
            [Least, LeastSeed, Spread]),
     earned_all(Marked).
 
-earned_all(marked(_, mark(_, Points, Of, _, _, _), _, _)) :-
+earned_all(Marked) :-
+    Marked = marked(mark: Mark),
+    Mark = mark(points: Points, of: Of),
     Points =:= Of.
 
 %   Run the program on the seeds that Which or Options say, and print what it
@@ -112,7 +116,7 @@ printed(Exercise, Read, Which, File, Options, Marked) :-
 
 why_text(result(_, Result), Text) :-
     !,
-    Result = result(_, _, _, _, Text, _, _),
+    Result = result(collision: Text),
     Text \== ''.
 why_text(Reason, Reason) :-
     Reason \== ''.
@@ -159,7 +163,7 @@ marked_files(Exercise, Read, Files, Seeds, Options, Marked) :-
 
 hopeless(Number, Seeds, Results) :-
     \+ ( member(Seed, Seeds),
-         \+ ( member(job(Number, Seed, result(Ended, _, _, _, _, _, _)),
+         \+ ( member(job(Number, Seed, result(ended: Ended)),
                      Results),
               memberchk(Ended, [limit(_), killed(_)]) ) ).
 
@@ -233,7 +237,7 @@ results(Jobs, Batch, Results) :-
 results(Again0, Jobs, Batch, Results) :-
     batch_results(Jobs, Batch, Results0),
     findall(Program-Seed,
-            member(job(Program, Seed, result(lost, _, _, _, _, _, _)),
+            member(job(Program, Seed, result(ended: lost)),
                    Results0),
             Lost),
     length(Lost, Count),
@@ -365,13 +369,15 @@ marked(program(Number, Name, _, Source, Refused), Read, Seeds, Results,
     ;   most_often(Its, Reason)
     ).
 
-share(result(_, _, Shares, _, _, _, _), Index, Share) :-
+share(Result, Index, Share) :-
+    Result = result(shares: Shares),
     is_list(Shares),
     !,
     nth1(Index, Shares, Share).
 share(_, _, 0).
 
-run_points(result(_, _, Shares, _, _, _, _), ScoreFacts, Points) :-
+run_points(Result, ScoreFacts, Points) :-
+    Result = result(shares: Shares),
     is_list(Shares),
     !,
     findall(P,
@@ -383,7 +389,8 @@ run_points(result(_, _, Shares, _, _, _, _), ScoreFacts, Points) :-
     in_hundredths(Sum, Points).
 run_points(_, _, 0).
 
-run_end(result(Ended, Seconds, _, _, _, _, _), Ended, Rounded) :-
+run_end(Result, Ended, Rounded) :-
+    Result = result(ended: Ended, seconds: Seconds),
     !,
     Rounded is round(Seconds*10)/10.0.
 run_end(not_run, not_run, 0).
@@ -401,7 +408,7 @@ in_hundredths(Exact, Number) :-
 
 most_often(Results, Reason) :-
     findall(Why,
-            ( member(result(_, result(_, _, _, Why, _, _, _)), Results),
+            ( member(result(_, result(reason: Why)), Results),
               Why \== '' ),
             Whys),
     (   Whys == []

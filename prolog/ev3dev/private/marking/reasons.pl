@@ -18,7 +18,7 @@ What a program prints may be forged; it makes this sentence, and no mark.
 reason(over, Output, File, _, _, Reason) :-
     load_error(Output, File, Reason),
     !.
-reason(over, _, _, _, _, '') :-
+reason(over, _Output, _File, _, _Seconds, '') :-
     !.
 reason(exit(Status), Output, File, _, Seconds, Reason) :-
     !,
@@ -44,8 +44,9 @@ reason(limit(sleep), _, _, limits(_, Sleep), Seconds, Reason) :-
            'Stopped after ~w s of waiting (robot time ~1f s). Only \c
             wait/1 and devices let that time pass; sleep/1 does not.',
            [Sleep, Seconds]).
-reason(lost, _, _, _, _,
-       'It was not marked, because the machine was too busy: mark it again.').
+reason(lost, _Output, _, _, _,
+       'It was not marked,
+       because the machine was too busy: mark it again.').
 reason(limit(output), _, _, _, Seconds, Reason) :-
     format(atom(Reason), 'Stopped after 1 MB of output (robot time ~1f s).',
            [Seconds]).

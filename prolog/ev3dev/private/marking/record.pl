@@ -60,7 +60,7 @@ note_facts(Kind, Source) :-
     assertz(run_fact(Noted)).
 
 forget :-
-    retractall(run_pose(_, _, _, _)),
+    retractall(run_pose(_Seconds, _, _, _)),
     retractall(run_collision(_)),
     retractall(run_fact(_)).
 

@@ -3,6 +3,8 @@
                                         % +Marked
             write_page/3                % +File, +Exercise, +Marked
           ]).
+:- use_module('../basics/fields', [goal_expansion/2]).
+:- use_module(records, []).
 :- use_module(alike, [alike/2, clause_lines/3]).
 :- use_module(film, [film/3]).
 :- use_module(library(filesex),
@@ -31,7 +33,7 @@ write_report(html, Directory, Exercise, Marked) :-
     directory_file_path(Directory, pages, Pages),
     make_directory_path(Pages),
     forall(member(One, Marked),
-           ( One = marked(Name, _, _, _),
+           ( One = marked(name: Name),
              html_file(Pages, Name, File),
              write_page(File, Exercise, One) )),
     directory_file_path(Directory, 'index.html', Index),
@@ -98,7 +100,7 @@ style :-
 
 write_page(File, Exercise, Marked) :-
     Exercise = exercise(_, Title0, _, _),
-    Marked = marked(Name, _, _, _),
+    Marked = marked(name: Name),
     format(atom(Title), '~w: ~w', [Title0, Name]),
     to_file(File, page(Title, one_page(Exercise, Marked))).
 
@@ -129,7 +131,7 @@ one_page(Exercise, marked(_, Mark, Results, _)) :-
              end_words(Ended, Words),
              text(Words),
              format("<td>", []),
-             (   Result = result(_, _, _, Why, Collision, _, _)
+             (   Result = result(reason: Why, collision: Collision)
              ->  findall(T, ( member(T, [Why, Collision]), T \== '' ), Ts),
                  atomic_list_concat(Ts, ' ', Text),
                  text(Text)
@@ -163,7 +165,7 @@ end_words(error(_), 'lost').
 worst(Runs, Results, Seed, Result) :-
     findall(Points-N,
             ( nth1(N, Runs, run(_, Points, _, _)),
-              nth1(N, Results, result(_, result(_, _, _, _, _, [_, _|_], _)))
+              nth1(N, Results, result(_, result(film: [_, _|_])))
             ),
             Pairs),
     msort(Pairs, [_-First|_]),
@@ -173,7 +175,7 @@ class_page(exercise(_, Title, _, Scores), Marked) :-
     page(Title, class_body(Scores, Marked)).
 
 class_body(Scores, Marked) :-
-    findall(P, member(marked(_, mark(_, P, _, _, _, _), _, _), Marked), Ps),
+    findall(P, member(marked(mark: mark(points: P)), Marked), Ps),
     length(Ps, Count),
     sum_list(Ps, Sum),
     Mean is Sum/max(1, Count),
@@ -181,7 +183,9 @@ class_body(Scores, Marked) :-
             <div class=\"wide\"><table>~n<tr><th>Program\c
             <th class=\"n\">Points<th class=\"n\">of<th>Share<th>Remark~n",
            [Count, Mean]),
-    forall(member(marked(Name, mark(_, P, Of, _, _, Reason), _, _), Marked),
+    forall(member(marked(name: Name,
+                         mark: mark(points: P, of: Of, reason: Reason)),
+                  Marked),
            ( Percent is round(100*P/Of),
              format("<tr><td><a href=\"pages/", []),
              uri_encoded(path, Name, Link),
@@ -198,7 +202,7 @@ class_body(Scores, Marked) :-
             it in some run~n", []),
     forall(nth1(N, Scores, score(Full, Text, _, _)),
            ( findall(P-Missed,
-                     ( member(marked(_, mark(_, _, _, Its, _, _), _, _),
+                     ( member(marked(mark: mark(scores: Its)),
                               Marked),
                        nth1(N, Its, score(_, P, _, Missed)) ),
                      Earned),
@@ -242,7 +246,7 @@ side_by_side(alike(A, B, Share, Clauses), Marked) :-
 
 %   A clause ends where the next term begins, or at an empty line.
 
-marked_lines([], _, _, _, _).
+marked_lines([], _Number, _Kind, _Lines, _Starts).
 marked_lines([Text|Texts], Number, Kind0, Lines, Starts) :-
     (   memberchk(Number, Starts)
     ->  Kind = mark
@@ -308,7 +312,9 @@ csv_cell(Cell0, Cell) :-
 
 junit(exercise(_, Title, _, _), Marked) :-
     format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>~n<testsuites>~n", []),
-    forall(member(marked(Name, mark(_, _, _, Scores, Runs, Reason), _, _),
+    forall(member(marked(name: Name,
+                         mark: mark(scores: Scores, runs: Runs,
+                                    reason: Reason)),
                   Marked),
            ( length(Scores, Tests),
              length(Runs, RunCount),

@@ -6,7 +6,10 @@
             usage_age/2,                % +Used, -Seconds
             usage_beyond/3              % +Used, +Limits, -Limit
           ]).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
 :- use_module('../native/native', [process_usage_/3]).
+
+:- fields(used(began, alive, looked, cpu, slept, rest)).
 
 :- meta_predicate usage_goes_on(+, +, 0, +, -).
 
@@ -80,7 +83,8 @@ usage_heard(used(Began, _, Looked, Cpu, Slept, Rest),
 %
 %   How long ago the last look was.
 
-usage_age(used(_, _, Looked, _, _, _), Seconds) :-
+usage_age(Used, Seconds) :-
+    Used = used(looked: Looked),
     get_time(Now),
     Seconds is Now-Looked.
 
@@ -89,7 +93,8 @@ usage_age(used(_, _, Looked, _, _, _), Seconds) :-
 %   Limits is limits(Sleep, Cpu), in seconds, or `infinite`. Limit is
 %   limit(sleep), limit(cpu), or `lost` if nothing can be said.
 
-usage_beyond(used(_, _, _, _, Slept, _), limits(Sleep, _), limit(sleep)) :-
+usage_beyond(Used, limits(Sleep, _), limit(sleep)) :-
+    Used = used(slept: Slept),
     Sleep \== infinite,
     Slept > Sleep,
     !.
@@ -97,7 +102,8 @@ usage_beyond(used(_, _, _, Used, _, _), limits(_, Cpu), limit(cpu)) :-
     Cpu \== infinite,
     Used > Cpu,
     !.
-usage_beyond(used(Began, Alive, Looked, _, _, _), limits(_, Cpu), lost) :-
+usage_beyond(Used, limits(_, Cpu), lost) :-
+    Used = used(began: Began, alive: Alive, looked: Looked),
     most_still(Still),
     most(Most),
     (   Looked > Alive + Still

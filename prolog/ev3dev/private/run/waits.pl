@@ -9,6 +9,7 @@
             let_others_go_on/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
 :- use_module(brick, [brick/1, in_brick/2]).
 :- use_module('../native/native',
               [ read_on_/0, serve_if_due_/0, tick_after_/1, tick_at_once_/0
@@ -16,6 +17,8 @@
 :- use_module('../basics/small_lists', [append_lists/3, one_of/2]).
 :- use_module('../errors/errors', [throw_error/3]).
 :- use_module('../errors/frames', [goal_of_program/1]).
+
+:- fields(listener(closure, state, period, brick)).
 
 :- meta_predicate
     listening(+, 1, 0),
@@ -134,7 +137,7 @@ period([_|Listeners], Period) :-
 %   left: so a program that catches everything cannot keep it alive.
 
 leave(Listener, Ball) :-
-    nb_setarg(2, Listener, leave(Ball)),
+    set_field(Listener, listener(state: leave(Ball))),
     throw(Ball).
 
 %!  listen_for_events(+Seconds) is det.

@@ -6,9 +6,12 @@
             run_due_goals/0,
             clock/1                     % -Seconds
           ]).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
 :- use_module('../run/brick', [brick/1]).
 :- use_module('../errors/frames', [goal_of_program/1]).
 :- use_module('../native/native', [sim_clock_/1, sim_plan_/1]).
+
+:- fields(planned(brick, seconds, id, thread, goal)).
 
 :- meta_predicate
     plan(+, 0, -),
@@ -24,7 +27,7 @@ Each runs in the thread that planned it, when this waits or uses a device.
 :- multifile ev3dev_brick:forget/1.
 
 ev3dev_brick:forget(Brick) :-
-    retractall(planned(Brick, _, _, _, _)).
+    retractall(planned(brick: Brick)).
 
 %!  planned(?Seconds, ?Id, ?Thread, ?Goal) is nondet.
 %
@@ -72,7 +75,7 @@ ring(Seconds) :-
 %!  unplan(+Id) is det.
 
 unplan(Id) :-
-    retractall(planned(_, _, Id, _, _)).
+    retractall(planned(id: Id)).
 
 %!  run_due_goals is det.
 %
@@ -92,7 +95,7 @@ run_due_goals.
 :- multifile ev3dev_waits:serve_planned/0.
 
 ev3dev_waits:serve_planned :-
-    planned(_, _, _, _, _),
+    planned(brick: _),
     !,
     run_due_goals.
 

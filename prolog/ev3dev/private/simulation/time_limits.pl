@@ -89,7 +89,7 @@ end_limit(Id) :-
            remove_alarm(Alarm)),
     unplan(Id),
     retractall(held(_, Id, _, _)),
-    retractall(used(Id, _, _, _, _)),
+    retractall(used(Id, _Inferences, _, _, _)),
     retractall(left(Id, _, _)).
 
 %   The engine of a branch could not yield to others from native code.
@@ -239,7 +239,7 @@ is_overdue(Id) :-
 
 begin_use(Id) :-
     used_so_far(All, Now, Idle),
-    retractall(used(Id, _, _, _, _)),
+    retractall(used(Id, _Inferences, _, _, _)),
     assertz(used(Id, 0, All, Now, Idle)).
 
 use(Id, Inferences, Seconds) :-

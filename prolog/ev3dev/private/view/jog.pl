@@ -32,7 +32,7 @@ jog_line(_, _, refused("A program runs.")) :-
     \+ program_state(idle),
     !.
 jog_line(_, _, Answer) :-
-    \+ robot(_, _, _, _),
+    \+ robot(_Diameter, _, _, _),
     !,
     Answer = refused("No robot is set: set_robot(5.6, 10.6, outB, outC).").
 jog_line(Left, Right, none) :-

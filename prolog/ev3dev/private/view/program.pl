@@ -110,7 +110,7 @@ part_ends(Thread) :-
 
 watch_program :-
     leave_program,
-    asserta((user:expand_query(_, _, _, _) :-
+    asserta((user:expand_query(_Query, _, _, _) :-
                  ev3dev_view_program:query_begins,
                  fail),
             Hook1),
