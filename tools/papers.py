@@ -178,7 +178,7 @@ def compared(files, papers):
         re.findall(r"swipl (?:ev3dev|app/ev3dev\.pl) ([a-z]+)", everything)) | set(
             re.findall(r"^\| `([a-z]+)[^`|]*` \|", papers["docs/view.md"].split("| command |")[1].split("\n\n")[0], flags=re.M)), commands
     reasons = papers["docs/predicates.md"]
-    reasons = reasons[reasons.index("and `reason(R)`: one of"):]
+    reasons = reasons[reasons.index("`reason(R)`:"):]
     yield "docs/predicates.md, reason(R)", "the reasons of crates/driver", set(
         re.findall(r"`(\w+)`", reasons[:reasons.index("instead")])), set(
         re.findall(r'Self::\w+ => "(\w+)"', files["crates/driver/src/motor/wait.rs"]))
