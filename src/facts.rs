@@ -3,8 +3,8 @@ use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_type};
 use crate::glue::places::places;
 use crate::glue::terms::Ask as _;
-use ev3_sim::facts::{Fact, Form, Kind, Subject, Value};
-use ev3_sim::{Drawing, Echo, Hull, Part, Pose, SpecError, check_bounds};
+use ev3_sim::facts::{Fact, Kind, Subject, Value};
+use ev3_sim::{Drawing, Echo, Hull, Part, SpecError, check_bounds};
 use std::str::FromStr;
 use swipl::prelude::*;
 
@@ -43,7 +43,7 @@ pub(crate) fn fact<'a, C: QueryableContextType>(
 pub(crate) fn form_term<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     kind: &str,
-    form: &Form,
+    form: &ev3_sim::facts::Form,
     count: usize,
 ) -> PrologResult<Term<'a>> {
     let compound = |name: &str, arguments: &[Term<'a>]| {
@@ -134,11 +134,12 @@ pub(crate) fn drawing<'a, C: QueryableContextType>(
 }
 
 /// A pose from three numbers: cm, cm, degrees.
+#[cfg(feature = "sim")]
 pub(crate) fn pose<C: QueryableContextType>(
     call: &Call<C>,
     [x, y, heading]: [&Term; 3],
-) -> PrologResult<Pose> {
-    Ok(Pose::new(call.float(x)?, call.float(y)?, call.float(heading)?))
+) -> PrologResult<ev3_sim::Pose> {
+    Ok(ev3_sim::Pose::new(call.float(x)?, call.float(y)?, call.float(heading)?))
 }
 
 /// Something that has a name: a port, a color.
