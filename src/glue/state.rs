@@ -7,7 +7,7 @@ use ev3_driver::drive::{Drive, Robot};
 use ev3_driver::{Devfs, DevfsDir, Registry, Sysfs, SysfsDir, motor};
 use ev3_os::locked;
 use std::cell::Cell;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{
     Arc, LazyLock, Mutex, OnceLock, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard,
@@ -329,7 +329,7 @@ pub(crate) struct Selected {
 #[cfg(feature = "sim")]
 pub(crate) fn selected() -> Selected {
     let files = current().files();
-    let root = |root: &Path| root.to_owned();
+    let root = |root: &std::path::Path| root.to_owned();
     Selected {
         tree: files.is_tree_chosen.then(|| root(files.tree.devices.tree().root())),
         dev: files.is_dev_chosen.then(|| root(files.dev.root())),
