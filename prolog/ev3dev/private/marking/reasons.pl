@@ -45,8 +45,7 @@ reason(limit(sleep), _, _, limits(_, Sleep), Seconds, Reason) :-
             wait/1 and devices let that time pass; sleep/1 does not.',
            [Sleep, Seconds]).
 reason(lost, _Output, _, _, _,
-       'It was not marked,
-       because the machine was too busy: mark it again.').
+       'It was not marked, because the machine was too busy: mark it again.').
 reason(limit(output), _, _, _, Seconds, Reason) :-
     format(atom(Reason), 'Stopped after 1 MB of output (robot time ~1f s).',
            [Seconds]).
