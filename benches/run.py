@@ -193,25 +193,15 @@ def python_worker(root, is_smoke=False):
     return Worker([str(python), "benches/worker.py"], root)
 
 
-def cargo(command, **how):
-    return subprocess.run(
-        ["cargo", *command, "--quiet",
-         "--manifest-path", TOP / "benches/rust/Cargo.toml"], **how)
-
-
 def rust_worker(root, is_smoke=False):
     # Optimizing it takes minutes, which what measures nothing can do without
     profile, output = ("dev", "debug") if is_smoke else ("release", "release")
     target = WORK / f"rust-{output}"
     env = {**os.environ, "EV3DEV_DRIVER_PATH": f"{WORK}/tree/",
            "CARGO_TARGET_DIR": str(target)}
-    # What the pack is locked to; cargo adds what only the benches need
-    of_pack, lock = TOP / "Cargo.lock", TOP / "benches/rust/Cargo.lock"
-    if not lock.exists() or lock.stat().st_mtime < of_pack.stat().st_mtime:
-        shutil.copyfile(of_pack, lock)
-        # Without a network, if they have been fetched before
-        cargo(["update", "--workspace", "--offline"], capture_output=True)
-    built = cargo(["build", "--profile", profile], env=env)
+    built = subprocess.run(
+        ["cargo", "build", "--profile", profile, "--locked", "--quiet",
+         "--manifest-path", TOP / "benches/rust/Cargo.toml"], env=env)
     if built.returncode:
         sys.exit("benches/rust cannot be built: no columns rust and floor")
     return Worker([str(target / output / "ev3dev-bench")], root)
