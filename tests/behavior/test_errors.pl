@@ -298,7 +298,7 @@ test(say_what_is_meant,
                        motor_ramps(outB, 1, -1)-"the integer must be from 0 to 60000, not -1",
                        drive_option(speed, 200)-"from -100 to 100 percent and must not be 0, not 200",
                        go_to([1, 2], 3)-"must be a number, not [1,2]",
-                       go_to(1-2, [speed(3)])-", not speed(3)",
+                       go_to(1-2, [speed(3)])-"a number is expected, not ",
                        sensor_wait(us_dist_cm(in1, _))-"us_dist_cm(in1,_) is not one of",
                        sim_unplug(in9)-"in1 to in4 and outA to outD, not in9",
                        sim_remote(1, [up])-"red_up, red_down",
@@ -320,13 +320,9 @@ test(say_what_is_meant,
                        behave(avoid)-"Did you mean [avoid]?" ])) ]) :-
     with_sim(room,
              ( set_robot(5.6, 10.6, outB, outC),
+               garbage_collect,         % later it may forget an argument
                catch(Goal, error(_, context(_, Message)), true) )),
     assertion(sub_atom(Message, _, _, _, Words)).
-test(say_which_argument_was_checked_if_it_is_forgotten, true(Place == 2)) :-
-    GC = '<garbage_collected>',
-    ev3dev_error_texts:checked([GC, GC, 90], x, Place).
-test(say_no_place_of_a_part, fail) :-
-    ev3dev_error_texts:checked([f(x), 90], x, _).
 test(say_what_the_arguments_are,
      [ forall(member(Goal-Words,
                      [ motor_run(50, outB)-"motor_run(Port, Speed): Speed must be a number, not outB",

@@ -73,28 +73,12 @@ must_be_words(Wanted, Term, Frame, Text) :-
     shown(Term, Shown),
     (   Frame \== none,
         arguments(Frame, Arguments),
-        checked(Arguments, Term, Place)
+        place(Arguments, Term, 1, Place)
     ->  nth(Place, Nth),
         format(atom(Text), 'the ~w argument must be ~w, not ~w',
                [Nth, Wanted, Shown])
     ;   format(atom(Text), '~w is expected, not ~w', [Wanted, Shown])
     ).
-
-%   The garbage collector may have forgotten arguments. They are checked in
-%   their order: then it was the last of those before one that it has left.
-
-checked(Arguments, Term, Place) :-
-    place(Arguments, Term, 1, Place),
-    !.
-checked(Arguments, _, Place) :-
-    forgotten(Arguments, 0, Place),
-    Place > 0.
-
-forgotten(['<garbage_collected>'|Arguments], Place0, Place) :-
-    !,
-    Place1 is Place0 + 1,
-    forgotten(Arguments, Place1, Place).
-forgotten(_, Place, Place).
 
 kind(atom, 'an atom or a string') :- !.
 kind(callable, 'a goal') :- !.
