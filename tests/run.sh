@@ -179,7 +179,7 @@ first_lines() {
     local lines
     lines=$(grep -nEm 1 '(^|[^a-z])(ERROR|Warning|FAILED|not ok|panicked|error)' "$1" | cut -d : -f 1 || true)
     if [ -n "$lines" ]; then
-        tail -n "+$lines" "$1" | head -n 8
+        sed -n "$lines,$((lines + 7))p" "$1"
     else
         tail -n 8 "$1"
     fi

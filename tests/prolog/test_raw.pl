@@ -92,7 +92,7 @@ test(too_many_are_explained,
      [ forall(member(Goal-Culprit, [ i2c_read(in1, 0, 33, _)-33, i2c_read(in1, 250, 6, _)-6,
                                      i2c_write(in1, 254, [1, 2])-[1, 2] ])),
        true(Domain-Text == i2c_count-Expected) ]) :-
-    format(atom(Expected), 'from 1 to 32 bytes are expected, up to register 254, not ~p', [Culprit]),
+    format(atom(Expected), 'the count must be from 1 to 32 bytes, up to register 254, not ~p', [Culprit]),
     catch(Goal, error(domain_error(Domain, Culprit), context(_, Text)), true).
 test(a_plain_file_that_is_too_short_is_no_sensor, error(syntax_error(attribute), _)) :-
     with_tree(plain, ['in1:i2c1'-'ht-nxt-compass'],

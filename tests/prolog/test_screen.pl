@@ -1,4 +1,4 @@
-:- use_module('../support/dev').
+:- use_module('../support/dev', [bytes_of/2, dev_path/2, on_dev/2, put_bytes_of/3, with_dev/2]).
 :- use_module('../support/pictures').
 :- use_module('../support/trees').
 :- use_module('../support/old_prolog').

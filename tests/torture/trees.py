@@ -160,7 +160,7 @@ class Mount:
         try:
             for folder in folders:
                 written(folder / "command", "reset" if folder.parent.name == "tacho-motor" else "float")
-        except FileNotFoundError:
+        except OSError:
             return False
         return sum(folder.parent.name == "tacho-motor" for folder in folders) >= 3
 

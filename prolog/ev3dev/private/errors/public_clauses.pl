@@ -2,12 +2,14 @@
           [ term_expansion/4            % +Clause0, ?Layout0, -Clause, -Layout
           ]).
 
-/** <module> The clauses of public predicates keep their frames
+/** <module> The clauses of public predicates keep their frames and arguments
 
-Prolog drops a frame before the last call of a clause. Then an error could not
-name the predicate that the program called. So a module with public predicates
-imports term_expansion/4 from here. (`swipl -O` removes the `true` that it
-adds; then an error names an inner predicate.)
+Prolog drops a frame before the last call of a clause, and its garbage
+collector forgets arguments that a clause does not use any more. Then an error
+could not name the predicate that the program called, or the wrong argument.
+So a module with public predicates imports term_expansion/4 from here.
+(`swipl -O` removes the `true` that it adds; then an error names an inner
+predicate.)
 */
 
 :- dynamic
@@ -31,26 +33,55 @@ note_exports([Name/Arity|Exports], Module) :-
 
 %!  term_expansion(+Clause0, ?Layout0, -Clause, -Layout) is semidet.
 %
-%   Keep the frames of exported predicates by `true` after the last call.
+%   Keep the frames of exported predicates by a goal after the last call, which
+%   tests one argument and could use the others: so the collector keeps them.
 %   Without its layout, a clause would break the backtraces of
 %   library(prolog_stack) up to SWI-Prolog 9.2.
 
-term_expansion((Head :- Body), Layout0, (Head :- Body, true), Layout) :-
+term_expansion((Head :- Body), Layout0, (Head :- Body, Kept), Layout) :-
     prolog_load_context(module, Module),
     callable(Head),
     functor(Head, Name, Arity),
     is_exported(Name, Arity, Module),
-    layout(Layout0, Layout).
+    Head =.. [_|Arguments],
+    kept(Arguments, Kept),
+    layout(Layout0, Kept, Layout).
 
-layout(Layout0, Layout) :-
+kept([], true).
+kept([Argument|Arguments], Kept) :-
+    (   var(Argument)
+    ->  Kept = ( nonvar(Argument) -> true ; Used ),
+        used([Argument|Arguments], Used)
+    ;   kept(Arguments, Kept)
+    ).
+
+used([], true).
+used([Argument|Arguments], ( Argument == Argument, Used )) :-
+    used(Arguments, Used).
+
+layout(Layout0, Kept, Layout) :-
     (   nonvar(Layout0),
         Layout0 = term_position(From, To, NeckFrom, NeckTo, [Head, Body]),
         compound(Body)
     ->  Body =.. [_, Begin, End|_],
+        place(Kept, End, Place),
         Layout = term_position(From, To, NeckFrom, NeckTo,
                                [ Head,
                                  term_position(Begin, End, End, End,
-                                               [Body, End-End])
+                                               [Body, Place])
                                ])
     ;   Layout = Layout0
     ).
+
+place(Term, End, Place) :-
+    (   compound(Term)
+    ->  Place = term_position(End, End, End, End, Places),
+        Term =.. [_|Parts],
+        places(Parts, End, Places)
+    ;   Place = End-End
+    ).
+
+places([], _, []).
+places([Part|Parts], End, [Place|Places]) :-
+    place(Part, End, Place),
+    places(Parts, End, Places).

@@ -244,7 +244,7 @@ is_to_blame(Run) :-
     percent(Run, Percent),
     (   abs(Percent) > 100
     ->  true
-    ;   Run = run(_, _, Way),
+    ;   Run =.. [_, _, _, Way],
         (   Percent =:= 0
         ->  true
         ;   abs(Way) > 1.0e9           % a motor counts to 2^31
