@@ -33,8 +33,8 @@ note_exports([Name/Arity|Exports], Module) :-
 
 %!  term_expansion(+Clause0, ?Layout0, -Clause, -Layout) is semidet.
 %
-%   Keep the frames of exported predicates by a goal after the last call, which
-%   tests one argument and could use the others: so the collector keeps them.
+%   Keep the frames of exported predicates by a goal after the last call. It
+%   tests one argument and could use the others, so the collector keeps them.
 %   Without its layout, a clause would break the backtraces of
 %   library(prolog_stack) up to SWI-Prolog 9.2.
 
