@@ -131,15 +131,12 @@ watch_idle() {
 # ticks SESSION: hundredths of a second that its processes have computed, and that their threads
 # have waited for a processor
 ticks() {
-    local stat task
-    while read -r stat; do
-        for task in "/proc/${stat%% *}"/task/*/schedstat; do
-            cat "$task" 2>/dev/null || true
-        done
-        # What has ended, as its parent knows it
-        awk '{ print ($14 + $15) * 10000000, 0 }' <<<"${stat##*) }"
-    done < <(cat /proc/[0-9]*/stat 2>/dev/null |
-        awk -v session="$1" '{ rest = $0; sub(/.*\) /, "", rest); split(rest, of); if (of[4] == session) print }') |
+    local pid ended
+    while read -r pid ended; do
+        echo "${ended}0000000 0" # of those that have ended, as their parent knows it
+        cat "/proc/$pid"/task/*/schedstat 2>/dev/null || true
+    done < <({ cat /proc/[0-9]*/stat 2>/dev/null || true; } | sed 's/ (.*) / /' |
+        awk -v session="$1" '$5 == session { print $1, $15 + $16 }') |
         awk '{ all += $1 + $2 } END { printf "%d\n", all / 10000000 }'
 }
 
