@@ -1,6 +1,7 @@
 :- module(ev3dev_small_lists,
           [ one_of/2,                   % +List, ?Element
-            append_lists/3              % ?List1, ?List2, ?List
+            append_lists/3,             % ?List1, ?List2, ?List
+            first_of/3                  % +Count, +List, -First
           ]).
 
 /** <module> member/2 and append/3 without library(lists)
@@ -28,3 +29,16 @@ one_of([Element1|Elements], _, Element) :-
 append_lists([], List, List).
 append_lists([X|Xs], Ys, [X|Zs]) :-
     append_lists(Xs, Ys, Zs).
+
+%!  first_of(+Count, +List, -First) is det.
+%
+%   First has the first Count elements of List, or all if there are fewer.
+
+first_of(Count, List, First) :-
+    (   Count > 0,
+        List = [X|Xs]
+    ->  First = [X|First1],
+        Count1 is Count - 1,
+        first_of(Count1, Xs, First1)
+    ;   First = []
+    ).

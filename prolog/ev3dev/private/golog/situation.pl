@@ -11,6 +11,7 @@
             is_assumed/3                % +Condition, +Situation, -Truth
           ]).
 :- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../basics/small_lists', [first_of/3]).
 :- use_module(library(assoc),
               [ assoc_to_keys/2, assoc_to_list/2, empty_assoc/1, get_assoc/3,
                 put_assoc/4
@@ -78,15 +79,6 @@ untimed([F-v(_, V)|Pairs], [F-V|State]) :-
 history_shortened(Length, situation(H0, C, V, O, D),
                   situation(H, C, V, O, D)) :-
     first_of(Length, H0, H).
-
-first_of(N, List0, List) :-
-    (   N > 0,
-        List0 = [X|Xs0]
-    ->  List = [X|Xs],
-        N1 is N-1,
-        first_of(N1, Xs0, Xs)
-    ;   List = []
-    ).
 
 %!  marked(+Entry, +Situation0, -Situation) is det.
 %

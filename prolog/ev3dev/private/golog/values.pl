@@ -54,19 +54,23 @@ fluent_value(F, V, S, Context) :-
 %   Fluents whose declaration leaves variables: those with a value.
 
 sort_if_open(Fs0, F, Situation, M, Fs) :-
-    Situation = situation(values: Values),
     (   ground(Fs0)
     ->  Fs = Fs0
-    ;   assoc_to_keys(Values, Keys),
-        findall(F, member(F, Keys), Fs1),
-        findall(F,
-                ( M:initially(F, _), ground(F) ),
-                Fs2),
-        findall(G, ( member(G, Fs0), ground(G) ), Fs3),
-        append(Fs1, Fs2, Fs4),
-        append(Fs3, Fs4, Fs5),
-        sort(Fs5, Fs)
+    ;   fluents_with_values(Fs0, F, Situation, M, Fs)
     ).
+
+%   Fs are the ground ones of Declared, and those of the form F that have a
+%   value, in standard order.
+
+fluents_with_values(Declared, F, Situation, M, Fs) :-
+    Situation = situation(values: Values),
+    assoc_to_keys(Values, Keys),
+    findall(F, member(F, Keys), Fs1),
+    findall(F, ( M:initially(F, _), ground(F) ), Fs2),
+    findall(G, ( member(G, Declared), ground(G) ), Fs3),
+    append(Fs1, Fs2, Fs4),
+    append(Fs3, Fs4, Fs5),
+    sort(Fs5, Fs).
 
 %!  value(+Fluent, -Value, +Situation, +Context, +Module) is nondet.
 %
@@ -151,17 +155,10 @@ no_initial_value(F, M, Context) :-
 %   or '$possible'(Values), in standard order.
 
 fluents_now(S, Context, Pairs) :-
-    S = situation(values: Values),
     context_module(Context, M),
     in_mode(stored, Context, Stored),
-    assoc_to_keys(Values, Fs1),
-    findall(F,
-            ( M:initially(F, _), ground(F) ),
-            Fs2),
-    findall(F, ( is_fluent(F, M), ground(F) ), Fs3),
-    append(Fs1, Fs2, Fs4),
-    append(Fs3, Fs4, Fs5),
-    sort(Fs5, Fs),
+    findall(F, is_fluent(F, M), Declared),
+    fluents_with_values(Declared, _, S, M, Fs),
     findall(F-V, ( member(F, Fs), known_value(F, V, S, Stored) ), Pairs).
 
 %!  known_value(+Fluent, -Value, +Situation, +Context) is nondet.

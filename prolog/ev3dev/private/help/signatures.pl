@@ -3,6 +3,7 @@
             arities/2,                  % +Name, -Predicates
             meant/2                     % +Predicate, -Predicates
           ]).
+:- use_module('../basics/small_lists', [first_of/3]).
 :- use_module('../errors/frames', [is_public/2]).
 :- use_module(help_words, [words_for/2]).
 :- use_module(libraries, [in_library/2]).
@@ -142,17 +143,8 @@ meant(Name/_, Predicates) :-
               arities(Public, All),
               member_of(All, Public/Arity) ),
             Predicates0),
-    first(4, Predicates0, Predicates),
+    first_of(4, Predicates0, Predicates),
     Predicates \== [].
-
-first(Count, Terms, First) :-
-    (   Count > 0,
-        Terms = [Term|Rest]
-    ->  First = [Term|First1],
-        Count1 is Count - 1,
-        first(Count1, Rest, First1)
-    ;   First = []
-    ).
 
 alike(Name, Public) :-
     current_module(Module),
