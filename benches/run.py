@@ -201,7 +201,7 @@ def rust_worker(root, is_smoke=False):
            "CARGO_TARGET_DIR": str(target)}
     built = subprocess.run(
         ["cargo", "build", "--profile", profile, "--locked", "--quiet",
-         "--manifest-path", TOP / "benches/rust/Cargo.toml"], env=env)
+         "--package", "ev3dev-bench"], cwd=TOP, env=env)
     if built.returncode:
         sys.exit("benches/rust cannot be built: no columns rust and floor")
     return Worker([str(target / output / "ev3dev-bench")], root)

@@ -4,10 +4,10 @@
 mod robots;
 
 use ev3_driver::error::Access;
-use ev3_driver::motor::{Move, MoveOptions, Run, Speed, Extent, run_forever, run_to};
-use ev3_driver::sysfs::{AttributeFile, Entry, Sysfs};
 use ev3_driver::motor::wait::Reason;
-use ev3_driver::{Registry, Error, SysfsDir};
+use ev3_driver::motor::{Extent, Move, MoveOptions, Run, Speed, run_forever, run_to};
+use ev3_driver::sysfs::{AttributeFile, Entry, Sysfs};
+use ev3_driver::{Error, Registry, SysfsDir};
 use ev3_sim::{Mount, Shared};
 use ev3dev_lang_rust::motors::{LargeMotor, MotorPort, TachoMotor};
 use ev3dev_lang_rust::sensors::{ColorSensor, GyroSensor, Sensor, SensorPort, UltrasonicSensor};
@@ -35,7 +35,7 @@ fn main() {
             "journal" => vec![journal(&root, count)],
             _ => vec![per_call(prepare(implementation, case, &root), count)],
         };
-        println!("{}", seconds.iter().map(|s| format!("{s:e} ")).collect::<String>());
+        println!("{}", seconds.iter().map(|s| format!("{s:e}")).collect::<Vec<_>>().join(" "));
         io::stdout().flush().expect("a reader");
     }
 }
@@ -209,10 +209,7 @@ fn journal(root: &Path, count: u32) -> f64 {
     let run = Run { port: "outB", speed: Speed::Percent(20.0) };
     assert!(run_forever(&devices, &[run], &mut || false).expect("a motor").is_some());
     let act = devices.journal().entries().pop().expect("an entry").act;
-    per_call(
-        Box::new(move || devices.journal().note(devices.tree().now(), act.clone())),
-        count,
-    )
+    per_call(Box::new(move || devices.journal().note(devices.tree().now(), act.clone())), count)
 }
 
 /// Seconds from the moment a simulated motor stops to the return of the wait
@@ -231,7 +228,8 @@ fn latency(count: u32) -> [f64; 2] {
     let mut seconds: Vec<f64> = (0..count)
         .map(|number| {
             let degrees = 60.0 + f64::from(number % 10) * 10.0;
-            let turn = Move { port: "outA", speed: Speed::Percent(40.0), extent: Extent::By(degrees) };
+            let turn =
+                Move { port: "outA", speed: Speed::Percent(40.0), extent: Extent::By(degrees) };
             let ended = run_to(&devices, &[turn], &MoveOptions::default(), &mut || false);
             assert_eq!(ended.expect("a motor"), Some(Reason::Reached));
             stopped.lock().expect("no panic").elapsed().as_secs_f64()
@@ -265,7 +263,7 @@ fn step(shared: &Shared, stopped: &Mutex<Instant>, is_over: &AtomicBool) {
     }
 }
 
-/// SysfsDir that note when a command is about to be written.
+/// A `SysfsDir` that notes when a command is about to be written.
 struct Stamping {
     files: SysfsDir,
     commands: Arc<Mutex<Vec<Instant>>>,
