@@ -49,10 +49,7 @@ color(6, white).
 color(7, brown).
 
 :- dynamic white/5.                     % Brick, Port, Red, Green, Blue
-:- multifile ev3dev_brick:forget/1.
-
-ev3dev_brick:forget(Brick) :-
-    retractall(white(brick: Brick)).
+:- of_brick([white/5]).
 
 %!  col_white(?Port) is semidet.
 %

@@ -26,10 +26,7 @@ The lines take the whole screen: what was drawn before disappears.
 */
 
 :- dynamic lines/2.                     % Brick, Lines
-:- multifile ev3dev_brick:forget/1.
-
-ev3dev_brick:forget(Brick) :-
-    retractall(lines(Brick, _)).
+:- of_brick([lines/2]).
 
 %!  screen_print(+Term) is semidet.
 %

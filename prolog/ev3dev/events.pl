@@ -23,7 +23,7 @@
 :- use_module(private/checks/arguments,
               [must_be_options/3, number_value/3, option/3]).
 :- use_module(private/run/brick,
-              [brick/1, in_brick/2, is_apart/1, switch_brick/1]).
+              [brick/1, in_brick/2, is_apart/1, switch_brick/1, of_brick/1]).
 :- use_module(private/simulation/random_seed, [branch_seed/1, seed_branch/1]).
 :- use_module(private/devices/conditions, [condition_goal/2]).
 :- use_module(private/basics/small_lists, [one_of/2]).
@@ -87,13 +87,7 @@ One that reads a sensor in another mode than the last one takes 10 ms.
     event_/4,
     state_/3,
     next/2.                             % Brick, Next
-
-:- multifile ev3dev_brick:forget/1.
-
-ev3dev_brick:forget(Brick) :-
-    retractall(event_(Brick, _, _, _)),
-    retractall(state_(Brick, _, _)),
-    retractall(next(Brick, _)).
+:- of_brick([event_/4, state_/3, next/2]).
 
 %   Seconds between two looks.
 look_every(0.02).

@@ -13,7 +13,7 @@
 :- use_module(private/load/compiled, []).
 :- use_module(private/basics/fields, [goal_expansion/2]).
 :- use_module(private/checks/arguments, [must_be_options/3, number_option/4]).
-:- use_module(private/run/brick, [brick/1]).
+:- use_module(private/run/brick, [brick/1, of_brick/1]).
 :- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/errors, [domain_error/2]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
@@ -54,11 +54,7 @@ Probabilistic Robotics (2005), chapters 2 and 8.
 
 :- dynamic believed/3.                  % Brick, CellCm, Belief
 :- volatile believed/3.
-
-:- multifile ev3dev_brick:forget/1.
-
-ev3dev_brick:forget(Brick) :-
-    retractall(believed(Brick, _, _)).
+:- of_brick([believed/3]).
 
 %   The most free cells ahead that are distinguished. Farther on the cone of
 %   the sonar meets what stands beside the way.

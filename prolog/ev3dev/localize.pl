@@ -22,7 +22,7 @@
               [ must_be_options/3, must_be_within/4, number_option/4,
                 number_value/2, number_value/3, option/2, option/3
               ]).
-:- use_module(private/run/brick, [brick/1]).
+:- use_module(private/run/brick, [brick/1, of_brick/1]).
 :- use_module(private/maps/roadmap_arguments,
               [roadmap_facts/2, sensor_option/2]).
 :- use_module(private/devices/robot_state,
@@ -65,11 +65,7 @@ Sources: Thrun, Burgard, Fox: Probabilistic Robotics (2005), chapters 6 and 8.
 %   localizer(Brick, Localizer, Correct)
 :- dynamic localizer/3.
 :- volatile localizer/3.
-
-:- multifile ev3dev_brick:forget/1.
-
-ev3dev_brick:forget(Brick) :-
-    retractall(localizer(Brick, _, _)).
+:- of_brick([localizer/3]).
 
 %!  localize_start(+Map) is semidet.
 %!  localize_start(+Map, +Options) is semidet.

@@ -21,7 +21,7 @@
               [ must_be_options/3, must_be_within/4, number_option/4,
                 number_value/2, option/3
               ]).
-:- use_module(private/run/brick, [brick/1]).
+:- use_module(private/run/brick, [brick/1, of_brick/1]).
 :- use_module(private/files/directory, [write_file/2]).
 :- use_module(private/basics/small_lists, [one_of/2]).
 :- use_module(private/maps/roadmap_arguments, [sensor_option/2]).
@@ -64,11 +64,7 @@ Source: Thrun: Learning occupancy grid maps with forward sensor models (2003).
 %   mapper(Brick, Mapper, StartX, StartY, StartHeading)
 :- dynamic mapper/5.
 :- volatile mapper/5.
-
-:- multifile ev3dev_brick:forget/1.
-
-ev3dev_brick:forget(Brick) :-
-    retractall(mapper(brick: Brick)).
+:- of_brick([mapper/5]).
 
 %!  map_start is semidet.
 %!  map_start(+Options) is semidet.

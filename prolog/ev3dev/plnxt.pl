@@ -37,7 +37,7 @@
 :- use_module(private/errors/frames, [goal_of_program/1]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments, [number_value/2, number_value/3]).
-:- use_module(private/run/brick, [brick/1]).
+:- use_module(private/run/brick, [brick/1, of_brick/1]).
 :- use_module(private/basics/small_lists, [append_lists/3, one_of/2]).
 :- use_module(private/devices/robot_state, [robot/4]).
 :- use_module(private/devices/sensor_type, [sensor_of/3, sensor_to_read/3]).
@@ -100,13 +100,7 @@ exception stops it.
     opened/3,                           % Brick, Alias, Ports
     lamp_is_off/1,                      % Brick
     read_last/3.                        % Brick, Kind, Value
-
-:- multifile ev3dev_brick:forget/1.
-
-ev3dev_brick:forget(Brick) :-
-    retractall(opened(Brick, _, _)),
-    retractall(lamp_is_off(Brick)),
-    retractall(read_last(Brick, _, _)).
+:- of_brick([opened/3, lamp_is_off/1, read_last/3]).
 
 %!  nxt_open is semidet.
 %

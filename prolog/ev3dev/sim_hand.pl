@@ -16,7 +16,7 @@
             set_added_facts/1           % +Added
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/run/brick, [brick/1]).
+:- use_module(private/run/brick, [brick/1, of_brick/1]).
 :- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/explain/hints, [fail_because/1]).
@@ -38,11 +38,7 @@ presses buttons. All predicates fail if no simulation runs.
 */
 
 :- dynamic added/3.                     % Brick, Fact, Id
-
-:- multifile ev3dev_brick:forget/1.
-
-ev3dev_brick:forget(Brick) :-
-    retractall(added(Brick, _, _)).
+:- of_brick([added/3]).
 
 %!  sim_place(+X, +Y, +Heading) is semidet.
 %

@@ -4,7 +4,8 @@
             next_message/4              % +Until, +Late, -From, ?Term
           ]).
 :- use_module('../basics/fields', [fields/1, goal_expansion/2]).
-:- use_module('../run/brick', [brick/1, in_brick/2, is_simulated/0]).
+:- use_module('../run/brick',
+              [brick/1, in_brick/2, is_simulated/0, of_brick/1]).
 :- use_module('../../time', [ev3_time/1, wait/1]).
 
 :- fields(message(brick, at, sender, number, name, term)).
@@ -18,11 +19,7 @@ order of their senders' bricks, and those of one sender in theirs.
 
 :- dynamic message/6.                   % To, At, Sender, Number, Name, Term
 :- volatile message/6.
-
-:- multifile ev3dev_brick:forget/1.
-
-ev3dev_brick:forget(Brick) :-
-    retractall(message(brick: Brick)).
+:- of_brick([message/6]).
 
 %   How long one takes, and between two looks for one, in seconds.
 

@@ -7,7 +7,7 @@
             store_drive_default/2       % +Name, +Value
           ]).
 :- use_module('../basics/fields', [fields/1, goal_expansion/2]).
-:- use_module('../run/brick', [brick/1]).
+:- use_module('../run/brick', [brick/1, of_brick/1]).
 :- use_module('../explain/hints', [fail_because/1]).
 
 :- fields(robot(left, right, left_diameter, right_diameter, left_inverted,
@@ -19,12 +19,7 @@
 :- dynamic
     described/3,                        % Brick, Robot, Built
     default/3.                          % Brick, Name, Value
-
-:- multifile ev3dev_brick:forget/1.
-
-ev3dev_brick:forget(Brick) :-
-    retractall(described(Brick, _, _)),
-    retractall(default(Brick, _, _)).
+:- of_brick([described/3, default/3]).
 
 %!  drive_default(?Name, ?Value) is nondet.
 %

@@ -24,7 +24,7 @@
 :- use_module(queue,
               [queue_end/1, queue_new/1, queue_put/2, queue_take/2]).
 :- use_module(waiting, [guarded/2, run_watched/3]).
-:- use_module('../run/brick', [brick/1]).
+:- use_module('../run/brick', [brick/1, of_brick/1]).
 :- use_module('../errors/errors', [throw_error/3]).
 :- use_module('../errors/frames', [goal_of_program/1]).
 
@@ -40,11 +40,10 @@ closure of the option `device`.
 :- dynamic
     queue/3,                            % Brick, Module, Queue
     running/2.                          % Brick, Module
-
+:- of_brick([running/2]).
 :- multifile ev3dev_brick:forget/1.
 
 ev3dev_brick:forget(Brick) :-
-    retractall(running(Brick, _)),
     forall(retract(queue(Brick, _, Queue)), queue_end(Queue)).
 
 %!  robot_kind(+Module, -Robot) is det.

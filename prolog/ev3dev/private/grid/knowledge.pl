@@ -8,7 +8,7 @@
             saw_free/1,                 % +Cell
             known_free/1                % ?Cell
           ]).
-:- use_module('../run/brick', [brick/1]).
+:- use_module('../run/brick', [brick/1, of_brick/1]).
 :- use_module('../errors/public_clauses', [term_expansion/4]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../driver', []).
@@ -28,13 +28,7 @@ takes, and a robot does not go to and fro between two obstacles without end.
     obstacle/4,                         % Brick, Cell, State, Seconds
     free/3,                             % Brick, Cell, State
     fading/2.                           % Brick, Seconds or `never`
-
-:- multifile ev3dev_brick:forget/1.
-
-ev3dev_brick:forget(Brick) :-
-    retractall(obstacle(Brick, _, _, _)),
-    retractall(free(Brick, _, _)),
-    retractall(fading(Brick, _)).
+:- of_brick([obstacle/4, free/3, fading/2]).
 
 %   State is `until(Time)`, `ever`, or `faded`, after which it is only known
 %   how long the obstacle was remembered.

@@ -10,7 +10,7 @@
             set_pose_in/3               % +Metric, +Cell, +Direction
           ]).
 :- use_module('../basics/fields', [fields/1, goal_expansion/2]).
-:- use_module('../run/brick', [brick/1]).
+:- use_module('../run/brick', [brick/1, of_brick/1]).
 :- use_module('../errors/public_clauses', [term_expansion/4]).
 :- use_module('../explain/hints', [fail_because/1]).
 :- use_module('../../drive', [set_pose/3]).
@@ -32,12 +32,7 @@ Which grid it is on, and where on it the robot is.
 :- dynamic
     stands/3,                           % Brick, Cell, Direction
     on_grid/3.                          % Brick, Map, Metric
-
-:- multifile ev3dev_brick:forget/1.
-
-ev3dev_brick:forget(Brick) :-
-    retractall(stands(Brick, _, _)),
-    retractall(on_grid(Brick, _, _)).
+:- of_brick([stands/3, on_grid/3]).
 
 %!  on_grid(?Brick, -Map, -Metric) is nondet.
 %

@@ -5,6 +5,7 @@
             in_new_brick/1,             % :Goal
             new_brick/1,                % -Brick
             end_brick/1,                % +Brick
+            of_brick/1,                 % :Facts
             name_brick/3,               % +Name, +Brick, +Where
             unname_brick/1,             % +Name
             named_brick/3,              % ?Name, ?Brick, ?Where
@@ -15,11 +16,13 @@
 :- use_module('../native/native',
               [ brick_/1, brick_close_/1, brick_open_/1, brick_use_/1,
                 sim_active_/0 ]).
+:- use_module('../basics/small_lists', [one_of/2]).
 :- use_module('../errors/errors', [throw_error/3]).
 
 :- meta_predicate
     in_brick(+, 0),
-    in_new_brick(0).
+    in_new_brick(0),
+    of_brick(:).
 
 /** <module> The brick in use
 
@@ -33,7 +36,8 @@ of the thread that made it by a flag of Prolog, which it inherits.
 
 :- dynamic
     named/3,                            % Name, Brick, Where
-    apart/1.                            % Brick
+    apart/1,                            % Brick
+    about/2.                            % Brick, :Fact
 :- volatile
     named/3,
     apart/1.
@@ -142,11 +146,27 @@ end_brick(Brick) :-
     forall(forget(Brick), true),
     ignore(brick_close_(Brick)).
 
-%!  forget(+Brick) is det.
+%!  forget(+Brick) is multi.
 %
-%   Each module that knows something of a Brick adds a clause.
+%   Forget what is known of a Brick. A module adds a clause if it has more to
+%   do than of_brick/1.
 
 :- multifile forget/1.
+
+forget(Brick) :-
+    forall(about(Brick, Fact), retractall(Fact)).
+
+%!  of_brick(:Facts) is det.
+%
+%   A directive: the predicates Facts, a list of Name/Arity, have the brick as
+%   their first argument. Their facts are forgotten when the brick ends.
+
+of_brick(Module:Facts) :-
+    forall(( one_of(Facts, Name/Arity),
+             functor(Fact, Name, Arity),
+             arg(1, Fact, Brick),
+             \+ about(_, Module:Fact) ),
+           assertz(about(Brick, Module:Fact))).
 
 %!  name_brick(+Name, +Brick, +Where) is det.
 %!  unname_brick(+Name) is det.

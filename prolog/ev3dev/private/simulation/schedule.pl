@@ -7,7 +7,7 @@
             clock/1                     % -Seconds
           ]).
 :- use_module('../basics/fields', [fields/1, goal_expansion/2]).
-:- use_module('../run/brick', [brick/1]).
+:- use_module('../run/brick', [brick/1, of_brick/1]).
 :- use_module('../errors/frames', [goal_of_program/1]).
 :- use_module('../native/native', [sim_clock_/1, sim_plan_/1]).
 
@@ -23,11 +23,7 @@ Each runs in the thread that planned it, when this waits or uses a device.
 */
 
 :- dynamic planned/5.                   % Brick, Seconds, Id, Thread, Goal
-
-:- multifile ev3dev_brick:forget/1.
-
-ev3dev_brick:forget(Brick) :-
-    retractall(planned(brick: Brick)).
+:- of_brick([planned/5]).
 
 %!  planned(?Seconds, ?Id, ?Thread, ?Goal) is nondet.
 %

@@ -4,7 +4,7 @@
             world_name/1,               % -Name
             name_world/1                % +Name
           ]).
-:- use_module('../run/brick', [brick/1]).
+:- use_module('../run/brick', [brick/1, of_brick/1]).
 
 /** <module> The world and the robot with which a simulation began
 
@@ -26,12 +26,7 @@ begin it again.
 :- volatile
     noted/3,
     name/2.
-
-:- multifile ev3dev_brick:forget/1.
-
-ev3dev_brick:forget(Brick) :-
-    retractall(noted(Brick, _, _)),
-    retractall(name(Brick, _)).
+:- of_brick([noted/3, name/2]).
 
 noted_world(World, Options) :-
     brick(Brick),
