@@ -182,9 +182,9 @@ def compared(files, papers):
     yield "docs/predicates.md, reason(R)", "the reasons of crates/driver", set(
         re.findall(r"`(\w+)`", reasons[:reasons.index("instead")])), set(
         re.findall(r'Self::\w+ => "(\w+)"', files["crates/driver/src/motor/wait.rs"]))
-    tables = "".join(text for path, text in files.items() if "/private/devices/sensor_table/" in path)
+    table = files["prolog/ev3dev/private/devices/sensor_table.pl"]
     yield "docs/ev3dev-sysfs.md", "sensor types", None, (
-        set(re.findall(r"^type\('([\w-]+)'", tables, flags=re.M)),
+        set(re.findall(r"^sensor\('([\w-]+)'", table, flags=re.M)),
         set(re.findall(r"[\w-]+", papers["docs/ev3dev-sysfs.md"])))
     item = files["crates/sim/src/world/item.rs"]
     form = r'Form::\w+\(\s*"(\w+)"'

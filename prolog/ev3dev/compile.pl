@@ -41,8 +41,7 @@ unit(core, ['ev3dev/private/load/core']).
 unit(drive_parts, ['ev3dev/private/checks/places', 'ev3dev/odometry',
                    'ev3dev/calibrate']).
 unit(drive, ['ev3dev/drive']).
-unit(tables, ['ev3dev/private/devices/sensor_table/lego',
-              'ev3dev/private/devices/sensor_table/other']).
+unit(tables, ['ev3dev/private/devices/sensor_table']).
 unit(facts, ['ev3dev/private/files/facts']).
 unit(planners_parts, ['ev3dev/private/grid/problem',
                       'ev3dev/planners/search']).

@@ -47,9 +47,6 @@ ev3dev_sensor_info:known_mode('my-scale', 'WEIGHT', 1, 1, g,
     known_mode/6.                       % Type, Mode, Count, Decimals, Units,
                                         % Meaning
 
-:- dynamic
-    tables_loaded/0.
-
 %!  sensor_mode(?Type, ?Mode, ?Count, ?Decimals, ?Units, ?Meaning) is nondet.
 %
 %   True if sensors of Type have a Mode with Count values. Decimals is the
@@ -57,10 +54,9 @@ ev3dev_sensor_info:known_mode('my-scale', 'WEIGHT', 1, 1, g,
 %   Meaning describes them in words. Reads a table and no sensor.
 
 sensor_mode(Type, Mode, Count, Decimals, Units, Meaning) :-
-    load_tables,
     (   known_mode(Type, Mode, Count, Decimals, Units, Meaning)
-    ;   table(Table, _),
-        Table:mode(Type, Mode, Count, Decimals, Units, Meaning)
+    ;   load_table,
+        ev3dev_sensor_table:mode(Type, Mode, Count, Decimals, Units, Meaning)
     ).
 
 %!  sensor_type(?Type, ?What) is nondet.
@@ -69,35 +65,17 @@ sensor_mode(Type, Mode, Count, Decimals, Units, Meaning) :-
 %   table and no sensor.
 
 sensor_type(Type, What) :-
-    load_tables,
     (   known_type(Type, What)
-    ;   table(Table, _),
-        Table:type(Type, What)
+    ;   load_table,
+        ev3dev_sensor_table:type(Type, What)
     ).
 
-% The tables are large and most programs do not use them, so they are loaded
-% at the first use.
-table(ev3dev_lego_sensors, lego).
-table(ev3dev_other_sensors, other).
+%   The table is large, and most programs do not use it.
 
-load_tables :-
-    tables_loaded,
-    !.
-load_tables :-
-    with_mutex(ev3dev_sensor_tables, load_tables_once).
-
-load_tables_once :-
-    tables_loaded,
-    !.
-load_tables_once :-
+load_table :-
     module_property(ev3dev_sensor_info, file(Here)),
     file_directory_name(Here, Directory),
-    forall(table(_, Name), load_table(Directory, Name)),
-    assertz(tables_loaded).
-
-load_table(Directory, Name) :-
-    atomic_list_concat([Directory, '/private/devices/sensor_table/', Name],
-                       File),
+    atom_concat(Directory, '/private/devices/sensor_table', File),
     load_files(ev3dev_sensor_info:File, [if(not_loaded), imports([])]).
 
 %!  sensor_info(?Port, -Info) is nondet.
