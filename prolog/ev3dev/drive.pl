@@ -95,8 +95,9 @@ move is impossible: a speed of 0 or beyond 100 percent. Nothing moves then. A
 move by a distance or an angle of 0 is `reached` at once. They also fail,
 unless asked for the reason, when they end early: a wheel is blocked, the time
 is up, another thread stops a motor or commands something else, or the gyro
-contradicts the wheels (`astray`): it is mounted upside down, left and right
-motor are swapped, or the wheels spin on the spot. The robot stands then.
+contradicts the wheels (`astray`): it is mounted upside down, a motor is
+mounted backwards, left and right motor are swapped, or the wheels spin on the
+spot. The robot stands then.
 
 An interrupt, for example Ctrl-C, stops the robot first. A new move replaces
 one that still runs.

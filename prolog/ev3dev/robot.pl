@@ -58,8 +58,9 @@ interrupt, for example Ctrl-C, stops the robot first. They fail, and the robot
 stands, if they end early:
 
   - A wheel is blocked. That prints a warning.
-  - The gyro contradicts the wheels: it is mounted upside down, left and right
-    motor are swapped, or the wheels spin on the spot. That prints a warning.
+  - The gyro contradicts the wheels: it is mounted upside down, a motor is
+    mounted backwards, left and right motor are swapped, or the wheels spin on
+    the spot. That prints a warning.
   - Another thread stops a motor, or gives it another command.
 */
 

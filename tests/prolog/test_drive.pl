@@ -4,6 +4,7 @@
 :- use_module('../support/robots').
 :- use_module('../support/old_prolog').
 :- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/random_worlds), [random_room/3]).
 
 % ---------------- ARGUMENTS
 
@@ -470,6 +471,67 @@ test(go_and_turn_without_this_library_know_of_it, true(S == '525'-'-525')) :-
                 get_attribute(outC, speed_sp, R),
                 S = L-R )).
 :- end_tests(robot).
+
+% ---------------- A GYRO AND WHEELS THAT DO NOT AGREE
+
+%   Its right or left motor is mounted the other way round, and nobody knows.
+backwards(Seed, Side, Move, Reason, Turned) :-
+    biased(Seed, Noise),
+    robot_of(5.6, 5.6, 10.6, true, Noise, Robot),
+    inverted_port(Side, Port),
+    drives(Seed, Robot,
+           ( motor_polarity(Port, inversed),
+             with_reason(Move, Reason, Goal),
+             call(Goal),
+             sim_pose(_, _, Turned) )).
+
+inverted_port(left, outB).
+inverted_port(right, outC).
+
+with_reason(Move, Reason, Goal) :-
+    Move =.. List0,
+    append(List0, [[reason(Reason)]], List),
+    Goal =.. List.
+
+%   In a room, towards its walls, with a gyro that drifts by up to 2 degrees a second.
+bumps(Seed, Move, Reason) :-
+    biased(Seed, Noise),
+    robot_of(5.6, 5.6, 10.6, true, Noise, Robot0),
+    select(noise(in4, _, _), Robot0, Robot1),
+    Drift is Seed mod 5 - 2,
+    Robot = [noise(in4, 1, Drift)|Robot1],
+    random_room(Seed, [], World0),
+    select(start(X, Y, _), World0, World),
+    Heading is Seed*67 mod 360,
+    with_reason(Move, Reason, Goal),
+    with_sim([start(X, Y, Heading)|World],
+             ( set_robot(5.6, 10.6, outB, outC), call(Goal) ),
+             [seed(Seed), robot(Robot)]).
+
+:- begin_tests(a_gyro_that_does_not_agree).
+test(one_motor_is_mounted_backwards,
+     [ forall(( member(Side, [left, right]),
+                member(Move, [ go_cm(30, 5), go_cm(30, 50), go_cm(10, 40),
+                               go_cm(-60, 20), turn(20, 90), arc_cm(30, 60, 40),
+                               go_to(20, 40) ]) )) ]) :-
+    each_seed([S]>>( backwards(S, Side, Move, Reason, Turned),
+                     Reason-Turned = astray-_,
+                     abs(Turned) < 180 )).
+test(both_sides_are_swapped_and_a_line_is_a_line,
+     [forall(member(Distance, [20, 50])), true(R == reached)]) :-
+    with_sim([], ( set_robot(5.6, 10.6, outC, outB),
+                   go_cm(30, Distance, [reason(R)]) ), []).
+test(a_wall_turns_the_robot,
+     [forall(member(Move, [ go_cm(30, 300), go_cm(10, 200), go_cm(80, 300),
+                            arc_cm(30, 150, 120) ]))]) :-
+    each_seed([S]>>( bumps(S, Move, Reason),
+                     memberchk(Reason, [reached, stalled]) )).
+test(the_warning_says_what_to_do) :-
+    once(phrase(prolog:message(ev3dev(astray([outB, outC]))), Lines)),
+    with_output_to(string(Text), print_message_lines(current_output, '', Lines)),
+    forall(member(Part, ["inverted([left])", "set_robot/4", "use_gyro"]),
+           once(sub_string(Text, _, _, _, Part))).
+:- end_tests(a_gyro_that_does_not_agree).
 
 % ---------------- ACCURACY
 

@@ -5,6 +5,10 @@
 //! correction. A gyro that shows no turn is broken, or the wheels spin on the spot. Both show
 //! within a short turn, and wheels that merely slip, or an axle that was measured badly, do not
 //! look like either.
+//!
+//! A robot that has one motor mounted backwards spins while its wheels seem to go straight. It
+//! turns by as much as its wheels would if one of them ran the other way. An obstacle turns a robot
+//! less: a robot with one wheel held turns by half of that.
 use crate::drive::motion::{PERIOD, seconds};
 use std::time::Duration;
 
@@ -25,6 +29,13 @@ const LONG_TURN: f64 = 45.0;
 /// See [`LONG_TURN`].
 const FOLLOWS: f64 = 0.25;
 
+/// The share of a turn by wheels of which one runs the other way, from [`LONG_TURN`] on, that the
+/// gyro must not show while they seem to go straight.
+const SPINS: f64 = 0.75;
+
+/// The share of such a turn up to which wheels go straight.
+const STRAIGHT: f64 = 0.5;
+
 /// No robot turns faster, in degrees a second. If the gyro shows more, it
 /// restarted with another zero, or its 16 bits overflowed.
 const FASTEST: f64 = 600.0;
@@ -40,6 +51,8 @@ pub(super) struct Agreement {
     start: Option<Start>,
     /// Degrees that the robot has turned since, by its wheels.
     turned: f64,
+    /// The same if one of them ran the other way.
+    reversed: f64,
     /// When the last sample was, and what the gyro showed.
     sampled: Duration,
     shown: f64,
@@ -54,8 +67,8 @@ struct Start {
 
 impl Agreement {
     /// A sample: the robot has turned by this many degrees since the one before,
-    /// by its wheels, and the gyro shows `angle`.
-    pub(super) fn sample(&mut self, now: Duration, turned: f64, angle: f64) {
+    /// by its wheels, or `reversed` if one of them ran the other way, and the gyro shows `angle`.
+    pub(super) fn sample(&mut self, now: Duration, turned: f64, reversed: f64, angle: f64) {
         let passed = now.saturating_sub(self.sampled).max(PERIOD);
         let leap = (angle - self.shown).abs();
         let jumped = leap > SHORT_LEAP && leap > FASTEST * seconds(passed);
@@ -66,10 +79,14 @@ impl Agreement {
             return;
         };
         self.turned += turned;
+        self.reversed += reversed;
+        let beyond = (angle - start.shown - self.turned).abs();
         let by_gyro = (angle - start.shown) * self.turned.signum();
+        let spin = self.reversed.abs();
         let by_wheels = self.turned.abs();
         if by_wheels >= SHORT_TURN && by_gyro <= -OPPOSITE
             || by_wheels >= LONG_TURN && by_gyro < by_wheels * FOLLOWS
+            || spin >= LONG_TURN && by_wheels <= spin * STRAIGHT && beyond >= spin * SPINS
         {
             self.is_broken = true;
         } else if by_wheels >= LONG_TURN {
@@ -83,7 +100,7 @@ impl Agreement {
     }
 
     fn restart(&mut self, now: Duration) {
-        self.turned = 0.0;
+        (self.turned, self.reversed) = (0.0, 0.0);
         self.start = Some(Start { at: now, shown: self.shown });
     }
 }
@@ -96,12 +113,12 @@ mod tests {
     /// `shows` of it. Answers by how far the wheels had turned when it broke.
     fn broken_at(rate: f64, degrees: f64, shows: impl Fn(f64) -> f64) -> Option<f64> {
         let (mut agreement, mut turned, mut now) = (Agreement::default(), 0.0, Duration::ZERO);
-        agreement.sample(now, 0.0, shows(0.0).round());
+        agreement.sample(now, 0.0, 0.0, shows(0.0).round());
         while turned < degrees {
             let by = rate * 0.02;
             turned += by.abs();
             now += Duration::from_millis(20);
-            agreement.sample(now, by, shows(turned * rate.signum()).round());
+            agreement.sample(now, by, 0.0, shows(turned * rate.signum()).round());
             if agreement.is_broken() {
                 return Some(turned);
             }
@@ -147,9 +164,39 @@ mod tests {
             let seconds = f64::from(step) * 0.02;
             let now = Duration::from_millis(u64::from(step) * 20);
             // Steering turns the robot slowly to where the gyro shows none.
-            agreement.sample(now, 2.0 * 0.02, -(2.0 * seconds).round());
+            agreement.sample(now, 2.0 * 0.02, 40.0 * 0.02, -(2.0 * seconds).round());
         }
         assert!(!agreement.is_broken());
+    }
+
+    /// Goes straight, so fast that it would spin at a rate in degrees per second if one wheel ran
+    /// the other way; the gyro shows this share of it.
+    fn goes_straight(rate: f64, share: f64) -> bool {
+        let mut agreement = Agreement::default();
+        for step in 0..1000_u32 {
+            let now = Duration::from_millis(u64::from(step) * 20);
+            let spin = rate * 0.02;
+            agreement.sample(now, 0.0, spin, (spin * share * f64::from(step)).round());
+        }
+        !agreement.is_broken()
+    }
+
+    #[test]
+    fn a_robot_that_spins_while_its_wheels_go_straight_shows() {
+        for rate in [15.0, -55.0, 500.0] {
+            for share in [-1.2, -0.85, 0.85, 1.0, 1.2] {
+                assert!(!goes_straight(rate, share), "{share} of {rate}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_robot_that_something_turns_while_its_wheels_go_straight_is_no_contradiction() {
+        for rate in [15.0, -55.0, 500.0] {
+            for share in [-0.6, -0.1, 0.0, 0.3, 0.6] {
+                assert!(goes_straight(rate, share), "{share} of {rate}");
+            }
+        }
     }
 
     #[test]

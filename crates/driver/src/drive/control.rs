@@ -171,8 +171,9 @@ impl Inner {
         self.estimate.predict(&self.robot.wheels, ways, seconds);
         match devices.gyro.as_ref().filter(|_| self.use_gyro).map(angle) {
             Some(Ok(Some(angle))) => {
-                let (_, turned) = self.robot.wheels.twist(ways);
-                self.agreement.sample(now, turned.to_degrees(), angle);
+                let turn = |ways| self.robot.wheels.twist(ways).1.to_degrees();
+                let [left, right] = ways;
+                self.agreement.sample(now, turn(ways), turn([left, -right]), angle);
                 self.estimate.observe_gyro(angle);
             }
             Some(Ok(None)) => self.estimate.gyro_lost(),

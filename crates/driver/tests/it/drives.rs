@@ -27,6 +27,11 @@ struct Driven {
 
 impl Driven {
     fn new(gearing: f64) -> Self {
+        Self::with(gearing, [false, false])
+    }
+
+    /// One that is believed to have these motors mounted the other way round.
+    fn with(gearing: f64, inverted: [bool; 2]) -> Self {
         let brick = Brick::new(&["outB", "outC"]);
         let mut world = brick.world();
         world.gearing = gearing;
@@ -36,7 +41,7 @@ impl Driven {
         let registry = brick.devices();
         let robot = Robot {
             ports: ["outB".to_owned(), "outC".to_owned()],
-            wheels: Wheels::new([5.0, 5.0], [false, false], 11.0, 0.0),
+            wheels: Wheels::new([5.0, 5.0], inverted, 11.0, 0.0),
         };
         let drive = Drive::new(Arc::clone(&registry), &robot);
         Self { brick, registry, drive }
@@ -326,6 +331,33 @@ fn an_upside_down_gyro_does_not_let_a_straight_line_become_a_spiral() {
     assert!(matches!(ended.unwrap(), Some(Reason::Astray | Reason::Reached)));
     let heading = robot.heading();
     assert!(heading.abs() < 60.0, "{heading}");
+}
+
+#[test]
+fn one_motor_mounted_backwards_ends_a_move_before_the_robot_has_spun_around() {
+    let legs = [Leg::Arc(50.0, 0.0), Leg::Arc(-50.0, 0.0), Leg::Arc(40.0, 1.0 / 60.0)];
+    for (leg, inverted) in legs.iter().flat_map(|leg| [(leg, [true, false]), (leg, [false, true])])
+    {
+        for percent in [5.0, 40.0, 100.0] {
+            let robot = Driven::with(2.2, inverted);
+            let legs = std::slice::from_ref(leg);
+            let ended = robot.driven(percent, legs, &mut robot.brick.attentive());
+            assert_eq!(ended.unwrap(), Some(Reason::Astray), "{leg:?} at {percent} %");
+            robot.brick.pass(ms(500));
+            let heading = robot.heading();
+            assert!(heading.abs() < 180.0, "{leg:?} at {percent} %: {heading}");
+        }
+    }
+}
+
+#[test]
+fn a_line_goes_on_though_the_gyro_is_stuck_or_the_motors_are_swapped() {
+    for factor in [0.0, -1.0] {
+        let robot = Driven::new(2.2);
+        robot.brick.world().sensor("in2").gyro = Some(factor);
+        let ended = robot.driven(30.0, &[Leg::Arc(50.0, 0.0)], &mut robot.brick.attentive());
+        assert_eq!(ended.unwrap(), Some(Reason::Reached));
+    }
 }
 
 #[test]
