@@ -6,6 +6,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
 :- use_module(private/checks/checks, [must_be/2]).
+:- use_module(private/errors/error_texts, [shown/2]).
 :- use_module(private/errors/errors, [domain_error/2]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/explain/hints).
@@ -69,7 +70,8 @@ move, unless it knows already that they are free.
 %
 %         - reached
 %         - no_way
-%           The goal cannot be reached, as far as is known.
+%           The goal cannot be reached, as far as is known, or an own planner
+           fails.
 %         - no_sensor
 %           No ultrasonic sensor is connected.
 %         - bad_plan
@@ -176,7 +178,7 @@ next_plan(own(Closure, Goal), Map, Start, _, Result, own(Closure, Goal)) :-
         ->  Result = plan(Plan)
         ;   Result = bad_plan
         )
-    ;   Result = no_way
+    ;   Result = failed(Closure, Start, End)
     ).
 next_plan(Planning0, _, Start, Changed, Result, Planning) :-
     replan(Start, Changed, Result0, Planning0, Planning),
@@ -198,7 +200,10 @@ leads([Action|Plan], Map, State0, Goal) :-
 
 ended(Reason, Options, Goal) :-
     (   option(reason(Told), Options)
-    ->  Told = Reason
+    ->  (   Reason = failed(_, _, _)
+        ->  Told = no_way
+        ;   Told = Reason
+        )
     ;   Reason == reached
     ->  true
     ;   print_message(warning, ev3dev(grid(Reason, Goal))),
@@ -242,6 +247,9 @@ paper_action(move_if_free, move).
 paper_action(turn_left, left).
 paper_action(turn_right, right).
 
+obstructed_cells(Cells) :-
+    findall(Cell, obstructed(Cell), Cells).
+
 :- multifile prolog:message//1.
 
 prolog:message(ev3dev(grid(Reason, state(Cell, _)))) -->
@@ -249,8 +257,16 @@ prolog:message(ev3dev(grid(Reason, state(Cell, _)))) -->
     grid_message(Reason).
 
 grid_message(no_way) -->
-    { findall(Cell, obstructed(Cell), Cells) },
+    { obstructed_cells(Cells) },
     [ 'there is no way, with obstacles in ~w.'-[Cells] ].
+grid_message(failed(_:Planner, Start, End)) -->
+    { Planner =.. List0,
+      append(List0, [Start, End, '$VAR'('Plan')], List),
+      Call0 =.. List,
+      shown(Call0, Call),
+      obstructed_cells(Cells) },
+    [ 'the planner found no plan.'-[], nl,
+      '~w failed, with obstacles in ~w.'-[Call, Cells] ].
 grid_message(no_sensor) -->
     [ 'no ultrasonic sensor is connected.' ].
 grid_message(no_robot) -->

@@ -396,6 +396,15 @@ test(fails_and_says_why) :-
     retract(said(Text)),
     forall(member(Part, ["[3,3]", "no way", "[0,1]", "[1,0]"]),
            once(sub_string(Text, _, _, _, Part))).
+test(an_own_planner_that_fails_is_said_to_have_failed) :-
+    retractall(said(_)),
+    in_room([], \+ plan_and_go_to([3,3], _, [planner(no_plan(1))])),
+    retract(said(Text)),
+    once(sub_string(Text, _, _, _, "no_plan(1,state([0,0],[0,1]),state([3,3],_),Plan) failed")),
+    \+ sub_string(Text, _, _, _, "no way").
+no_plan(_, _, _, _) :-
+    fail.
+
 test(tells_the_reason, [forall(member(N, [4, 8])), Reason == no_way]) :-
     retractall(said(_)),
     in_room([neighbors(N)],
