@@ -177,17 +177,18 @@ call_command(try, [Exercise, Program], Options) :-
     call(Try).
 call_command(mark, [Exercise|Named], Options) :-
     exercise_file(Exercise, File),
-    findall(Program, submitted(Named, Program), Programs),
-    (   Programs == []
-    ->  throw(usage("there are no programs (*.pl) in ~w", Named))
-    ;   true
-    ),
+    forall(( member(Path, Named), \+ exists_directory(Path) ), a_file(Path)),
     findall(Option, marking_option(Options, Option), Chosen),
     setting(out, Options, Folder, marks),
     use_module(library(ev3dev/exercise), []),
-    Mark = ev3dev_exercise:exercise_mark(File, Programs,
-                                         [out(Folder)|Chosen], Marks),
+    Mark = ev3dev_exercise:exercise_mark(File, Named, [out(Folder)|Chosen],
+                                         Marks),
     call(Mark),
+    (   Marks == []
+    ->  atomic_list_concat(Named, ' ', Places),
+        throw(usage("there are no programs (*.pl) in ~w", [Places]))
+    ;   true
+    ),
     forall(member(mark(Name, Points, Of, _, _, Reason), Marks),
            format("~w~t~24|~w of ~w~t~36|~w~n", [Name, Points, Of, Reason])),
     format("The reports: ~w~n", [Folder]).
@@ -225,20 +226,6 @@ a_file(File) :-
     (   exists_file(File)
     ->  true
     ;   throw(usage("there is no file ~w", [File]))
-    ).
-
-%   The programs of a folder are its own, and those of its folders: there is
-%   one for each student where a learning platform has collected them.
-
-submitted(Named, File) :-
-    member(Path, Named),
-    (   exists_directory(Path)
-    ->  member(Ending, ['/*.pl', '/*/*.pl']),
-        atom_concat(Path, Ending, Pattern),
-        expand_file_name(Pattern, Files),
-        member(File, Files)
-    ;   a_file(Path),
-        File = Path
     ).
 
 marking_option(Options, jobs(Count)) :-

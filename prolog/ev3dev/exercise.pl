@@ -127,16 +127,18 @@ here. All places are `X-Y` in cm.
 
 %!  exercise_mark(+Exercise, +Files, +Options, -Marks) is det.
 %
-%   Run each of the programs Files on the seeds of the file Exercise. Marks is
-%   a list in that order, of
+%   Run each of the programs Files on the seeds of the file Exercise. A folder
+%   has a file or a folder for each student: docs/marking.md shows the forms
+%   of learning platforms, and which file begins. Marks is a list in that
+%   order, of
 %
 %   ```
 %   mark(Name, Points, Of, Scores, Runs, Reason)
 %   ```
 %
-%   Name is the name of the file without `.pl`, and Points, of Of, what it
-%   earned. Scores is a list of score(Text, Points, Of, Missed), Missed being
-%   the number of runs that did not earn it whole. Runs is a list of
+%   Name is that of the student's folder, or of the file without `.pl`, and
+%   Points, of Of, what it earned. Scores is a list of
+%   score(Text, Points, Of, Missed), Missed being the number of runs that did not earn it whole. Runs is a list of
 %   run(Seed, Points, Ended, Seconds): Ended is as of sim_fenced/3, or
 %   `not_run`. Reason is a text of what is wrong with the program, or ''.
 %   Options:

@@ -94,6 +94,8 @@ Ended = over,
 %       Whether the program is shut in by bwrap (bubblewrap): it has no
 %       network, sees no other processes, and no files but its own and those
 %       of SWI-Prolog and the pack. Default is `false`.
+%     - files(Files)
+%       Other files that it loads, which are its own, too. Default is [].
 %     - output(Text)
 %       Text is a string of what it has printed, errors and warnings, too: at
 %       most 1 MB.
@@ -116,7 +118,7 @@ sim_fenced(File, Ended) :-
 sim_fenced(File, Ended, Options) :-
     must_be_options(sim_fenced_option,
                     [ goal, seconds, sleep, cpu, memory, enclosed, output,
-                      told, salt ], Options),
+                      told, salt, files ], Options),
     option(goal(Goal), Options, main),
     must_be(callable, Goal),
     limit_option(seconds(Seconds), Options),
@@ -135,6 +137,8 @@ sim_fenced(File, Ended, Options) :-
                     'bubblewrap is not installed, or may not be used')
     ;   true
     ),
+    option(files(Files), Options, []),
+    must_be(list, Files),
     option(salt(Salt), Options, ''),
     must_be(text, Salt),
     own_seed(Salt, Seed),
@@ -144,7 +148,7 @@ sim_fenced(File, Ended, Options) :-
                                    [file_type(prolog), access(read)])),
     setup_call_cleanup(
         fence_directory(Directory),
-        in_directory(Directory, Path, Goal, Seed,
+        in_directory(Directory, [Path|Files], Goal, Seed,
                      limits(Seconds, Sleep, Cpu, Megabytes, Enclosed), Ended,
                      Text, Told),
         ( sim_fence_close_, delete_directory_and_contents(Directory) )).
@@ -156,7 +160,7 @@ fence_directory(Directory) :-
     atom_concat(Directory, '/own', Own),
     make_directory(Own).
 
-in_directory(Directory, Path, Goal, Seed,
+in_directory(Directory, Paths, Goal, Seed,
              limits(Seconds, Sleep, Cpu, Memory, Shut), Ended, Text, Told) :-
     atom_concat(Directory, '/own/robot', Socket),
     atom_concat(Directory, '/own/told', Tells),
@@ -178,7 +182,7 @@ in_directory(Directory, Path, Goal, Seed,
     processor_time(Cpu, Now, Until, AtMost),
     usage_begins(Used),
     setup_call_cleanup(
-        start(Directory, [Socket, ToldBy, Seed], Output, Path, Goal,
+        start(Directory, [Socket, ToldBy, Seed], Output, Paths, Goal,
               AtMost-Memory-Shut, Pid),
         served(Pid, Until, limits(Sleep, Cpu, Now), Used, Ended0),
         ended(Pid, Directory, Shut)),
@@ -267,7 +271,7 @@ what_was_told(File, Lines) :-
 %   and no core dump. Prolog is the one that runs this. The limit of processor
 %   time is for a process that lives on by itself; the kernel measures it
 %   coarsely.
-start(Directory, [Socket, Tells, Seed], Output, Path, Goal,
+start(Directory, [Socket, Tells, Seed], Output, [Path|Files], Goal,
       Cpu-Memory-Shut, Pid) :-
     current_prolog_flag(executable, Prolog),
     pack_folder(Pack),
@@ -288,7 +292,7 @@ start(Directory, [Socket, Tells, Seed], Output, Path, Goal,
     ),
     atom_concat(Directory, '/own', Own),
     (   Shut == true
-    ->  enclosure(Directory, Path, Walls),
+    ->  enclosure(Directory, [Path|Files], Walls),
         Enclosure = [bwrap|Walls]
     ;   Enclosure = []
     ),
@@ -333,7 +337,7 @@ starts_enclosed :-
     pack_folder(Pack),
     setup_call_cleanup(
         fence_directory(Directory),
-        ( enclosure(Directory, Pack, Walls),
+        ( enclosure(Directory, [Pack], Walls),
           append(Walls, [Prolog, '-f', none, '-g', halt], Arguments),
           process_create(path(bwrap), Arguments,
                          [stdout(null), stderr(null), process(Pid)]),
@@ -343,7 +347,7 @@ starts_enclosed :-
 %   The arguments with which bwrap shuts in what follows. The system's
 %   programs and libraries can be read, but nobody's home.
 
-enclosure(Directory, Path, Walls) :-
+enclosure(Directory, Paths, Walls) :-
     atom_concat(Directory, '/own', Own),
     pack_folder(Pack),
     current_prolog_flag(home, Home),
@@ -356,7 +360,7 @@ enclosure(Directory, Path, Walls) :-
             ;   member(Name, ['/prolog', '/lib', '/native']),
                 atom_concat(Pack, Name, Folder),
                 Bind = '--ro-bind-try'
-            ;   member(Folder, [Home, Programs, Path]),
+            ;   member(Folder, [Home, Programs|Paths]),
                 Bind = '--ro-bind'
             ;   Folder = Own,
                 Bind = '--bind'

@@ -71,7 +71,8 @@ mark_files(Files, Options, Marks) :-
 
 quietly(Goal) :-
     setup_call_cleanup(
-        asserta((user:message_hook(ev3dev(not_enclosed), _, _) :- !), Clause),
+        asserta((user:message_hook(ev3dev(Message), _, _) :-
+                     memberchk(Message, [not_enclosed, not_marked(_, _)]), !), Clause),
         once(Goal),
         erase(Clause)).
 
@@ -240,6 +241,15 @@ read_report(Out, Name, Text) :-
     atomic_list_concat([Out, /, Name], File),
     read_file_to_string(File, Text, [encoding(utf8)]).
 
+test(a_program_of_two_files, Name-Points-Text == alice-10-'') :-
+    with_folder(( folder(Folder), atom_concat(Folder, '/class', Class),
+                  atom_concat(Class, '/alice/lib', Lib), make_directory_path(Lib),
+                  honest([Loads, Start]),
+                  file('class/alice/mine', [":- use_module(lib/way).", Loads, "start :- way."], _),
+                  sub_string(Start, 9, _, 0, Way0), string_concat("way :- ", Way0, Way),
+                  file('class/alice/lib/way', [":- module(way, [way/0]).", Loads, Way], _),
+                  file('class/alice/old', ["start."], _),
+                  mark_files([Class], [seeds(1)], [mark(Name, Points, _, _, _, Text)]) )).
 test(a_forbidden_word_in_utf8, Reason == 'Line 1: secret/1 may not be used here.') :-
     marked_lines(["start :- secret('\u00e9'), \u00e9."], [], mark(mine, _, _, _, _, Reason)).
 test(one_format, Names == ['marks.csv']) :-

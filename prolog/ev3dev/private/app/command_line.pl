@@ -140,11 +140,7 @@ beyond([''], [Extra|_], Extra) :-
     !.
 beyond([], [Extra|_], Extra).
 beyond([Word|Words], [_|Files], Extra) :-
-    \+ single(Word, _),
-    !,
-    Words \== [],
-    beyond(Words, Files, Extra).
-beyond([_|Words], [_|Files], Extra) :-
+    \+ atom_concat(_, '...', Word),
     beyond(Words, Files, Extra).
 
 %   PROGRAM... is PROGRAM, several times.

@@ -12,21 +12,21 @@
 :- use_module('../errors/errors', [domain_error/2, in_own_name/1]).
 :- use_module(read,
               [ exercise_seeds/3, exercise_setting/3, forbidden/3,
-                program_terms/2, read_exercise/2, seed_list/2 ]).
+                read_exercise/2, seed_list/2 ]).
+:- use_module(submissions, [submissions/4]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
               [append/3, member/2, nth1/3, sum_list/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
-:- use_module(library(utf8), [utf8_codes/3]).
 
 /** <module> Many runs of many programs, and their points
 
 The runs are those of a batch, whose program is a file with the exercise and
 the texts of all programs in it; so it can go to another machine as it is.
 
-A program's result is marked(Name, Mark, Results, Source): the mark as of
+A program's result is marked(Name, Mark, Results, Submission): the mark as of
 exercise_mark/4; result(Seed, Result) for each seed, Result as of
-marked_run/5, or `not_run`; and source(Text, Terms), for a comparison.
+marked_run/4, or `not_run`; and the submission as of submissions/4.
 */
 
 %!  marks(+Exercise, +Files, +Options, -Marks) is det.
@@ -35,7 +35,10 @@ marks(Exercise0, Files, Options, Marks) :-
     prolog_file(Exercise0, Exercise),
     read_exercise(Exercise, Read),
     seeds(Read, all, Options, Seeds),
-    marked_files(Exercise, Read, Files, Seeds, Options, Marked),
+    handed_in(Files, Read, Submissions, Left),
+    forall(member(left(File, Why), Left),
+           print_message(warning, ev3dev(not_marked(File, Why)))),
+    marked_files(Exercise, Read, Submissions, Seeds, Options, Marked),
     findall(Mark, member(marked(mark: Mark), Marked), Marks),
     (   option(out(Directory), Options)
     ->  All = [html, csv, junit, json, gradescope],
@@ -50,6 +53,10 @@ marks(Exercise0, Files, Options, Marks) :-
         ev3dev_marking_report:write_reports(Formats, Directory, Read, Marked)
     ;   true
     ).
+
+handed_in(Files, Read, Submissions, Left) :-
+    exercise_setting(Read, goal(Goal), start),
+    submissions(Files, Goal, Submissions, Left).
 
 prolog_file(File, Path) :-
     in_own_name(absolute_file_name(File, Path,
@@ -106,8 +113,10 @@ earned_all(Marked) :-
 
 printed(Exercise, Read, Which, File, Options, Marked) :-
     seeds(Read, Which, Options, Seeds),
-    marked_files(Exercise, Read, [File], Seeds, Options, [Marked]),
-    Marked = marked(_, mark(_, Points, Of, Scores, Runs, Reason), Results, _),
+    handed_in([File], Read, Submissions, _),
+    marked_files(Exercise, Read, Submissions, Seeds, Options, [Marked]),
+    Marked = marked(mark: mark(_, Points, Of, Scores, Runs, Reason),
+                    results: Results),
     length(Runs, Count),
     forall(member(Score, Scores), print_score(Score, Count)),
     format("Together: ~w of ~w points, in ~d runs.~n", [Points, Of, Count]),
@@ -135,9 +144,12 @@ most_text(1000000).
 %   A program that had to be ended with the first two seeds is not run with
 %   the others; so the jobs come in two parts, whatever their number.
 
-marked_files(Exercise, Read, Files, Seeds, Options, Marked) :-
+marked_files(Exercise, Read, Submissions, Seeds, Options, Marked) :-
     enclosed(Options, Enclosed),
-    programs(Files, 1, Read, Programs),
+    findall(Program,
+            ( nth1(Number, Submissions, Submission),
+              program(Submission, Number, Read, Program) ),
+            Programs),
     (   append([First, Second], Others, Seeds)
     ->  FirstSeeds = [First, Second]
     ;   FirstSeeds = Seeds,
@@ -182,48 +194,41 @@ prolog:message(ev3dev(not_enclosed)) -->
     [ 'bubblewrap (bwrap) is not installed here, or may not be used:'-[], nl,
       'programs can read files and use the network'-[] ].
 
-%   program(Number, Name, Text, Source, Reason): Reason is '' if it may run.
-%   Text is as in the file; Source is source(Decoded, Terms).
+prolog:message(ev3dev(not_marked(File, Why))) -->
+    [ 'Not marked: ~w: ~w'-[File, Why] ].
 
-programs([], _, _, []).
-programs([File|Files], Number, Read, [Program|Programs]) :-
-    file_base_name(File, Base),
-    catch(read_file_to_string(File, Text, [encoding(octet)]),
-          error(Wrong, _), Text = ""),
-    string_length(Text, Length),
-    most_text(Most),
-    (   nonvar(Wrong)
-    ->  Source = source("", []),
-        Reason = 'It cannot be read.'
-    ;   Length > Most
-    ->  Source = source("", []),
-        Reason = 'It is longer than 1 MB.'
-    ;   decoded(Text, Decoded),
-        program_terms(Decoded, Terms),
-        Source = source(Decoded, Terms),
-        (   forbidden(Read, Terms, Reason)
-        ->  true
-        ;   Reason = ''
+%   program(Number, Name, Files, Submission, Reason): Reason is '' if it may
+%   run. Files are Path-Bytes, of which the first begins.
+
+program(Submission, Number, Read,
+        program(Number, Name, Files, Submission, Reason)) :-
+    Submission = submission(Name, _, Its, Refused),
+    findall(Path-Bytes,
+            ( member(file(Path0, Bytes, _, _), Its), can_be(Path0, Path) ),
+            Files),
+    (   Refused \== ''
+    ->  Reason = Refused
+    ;   member(file(Path, _, _, Terms), Its),
+        forbidden(Read, Terms, Reason0)
+    ->  (   Its = [_]
+        ->  Reason = Reason0
+        ;   format(atom(Reason), '~w: ~w', [Path, Reason0])
         )
-    ),
-    program_name(Base, Name),
-    Program = program(Number, Name, Text, Source, Reason),
-    Next is Number+1,
-    programs(Files, Next, Read, Programs).
-
-%   It is run as it is; here it is UTF-8, if it can be.
-
-decoded(Text, Decoded) :-
-    string_codes(Text, Bytes),
-    (   phrase(utf8_codes(Codes), Bytes)
-    ->  string_codes(Decoded, Codes)
-    ;   Decoded = Text
+    ;   Reason = ''
     ).
 
-program_name(Base, Name) :-
-    (   file_name_extension(Name, pl, Base)
-    ->  true
-    ;   Name = Base
+%   A name that the locale can write.
+
+can_be(Path0, Path) :-
+    atom_concat(/, Path0, Whole),
+    (   catch(is_absolute_file_name(Whole), error(_, _), fail)
+    ->  Path = Path0
+    ;   atom_codes(Path0, Codes0),
+        findall(Code,
+                ( member(Code0, Codes0),
+                  ( Code0 > 127 -> Code = 0'_ ; Code = Code0 ) ),
+                Codes),
+        atom_codes(Path, Codes)
     ).
 
 %   A run that says nothing, as the machine was too busy, is made again. Where
@@ -309,18 +314,16 @@ write_batch(File, Jobs, Exercise, Programs, Enclosed) :-
               (:- use_module(library(ev3dev/private/marking/run)))),
           write_term_line(Out,
               (:- initialization(marking_exercise(Exercise, Text)))),
-          forall(( member(program(Number, Name, Source, _, ''), Programs),
+          forall(( member(program(Number, _, Its, _, ''), Programs),
                    memberchk(Number-_, Jobs) ),
-                 write_term_line(Out, program(Number, Name, Source))),
+                 write_term_line(Out, program(Number, Its))),
           forall(nth1(N, Jobs, Program-Seed),
                  write_term_line(Out, job(N, Program, Seed))),
           write_term_line(Out,
               ( marked(Job, Result) :-
                     job(Job, Program0, Seed0),
-                    program(Program0, Name0, Source0),
-                    atom_concat(Name0, '.pl', FileName),
-                    marked_run(FileName, Source0, Seed0, Enclosed,
-                               Result) )) ),
+                    program(Program0, Files),
+                    marked_run(Files, Seed0, Enclosed, Result) )) ),
         close(Out)).
 
 write_term_line(Out, Term) :-
@@ -331,9 +334,9 @@ write_term_line(Out, Term) :-
 
 % ---------------- MARKS
 
-marked(program(Number, Name, _, Source, Refused), Read, Seeds, Results,
+marked(program(Number, Name, _, Submission, Refused), Read, Seeds, Results,
        marked(Name, mark(Name, Points, Of, Scores, Runs, Reason), Its,
-              Source)) :-
+              Submission)) :-
     Read = exercise(_, _, _, ScoreFacts),
     length(Seeds, SeedCount),
     findall(result(Seed, Result),

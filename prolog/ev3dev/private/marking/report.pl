@@ -218,7 +218,9 @@ class_body(Scores, Marked) :-
            )),
     format("</table></div>~n", []),
     findall(Name-Terms,
-            member(marked(Name, _, _, source(_, Terms)), Marked), Programs),
+            ( member(marked(name: Name, submission: Submission), Marked),
+              whole_text(Submission, _, Terms) ),
+            Programs),
     alike(Programs, Pairs),
     (   Pairs == []
     ->  true
@@ -228,6 +230,32 @@ class_body(Scores, Marked) :-
         forall(member(Pair, Pairs), side_by_side(Pair, Marked))
     ).
 
+%   All files as one text.
+
+whole_text(submission(_, _, Files, _), Text, Terms) :-
+    ( Files = [_] -> Heads = false ; Heads = true ),
+    whole_text(Files, Heads, 0, Texts, Terms),
+    atomic_list_concat(Texts, Atom),
+    atom_string(Atom, Text).
+
+whole_text([], _, _, [], []).
+whole_text([file(Path, _, Text, Its)|Files], Heads, Above, [Part|Texts],
+           Terms) :-
+    (   Heads == true
+    ->  format(string(Part), "% ~w~n~w~n", [Path, Text]),
+        Above1 is Above+1
+    ;   Part = Text,
+        Above1 = Above
+    ),
+    split_string(Part, "\n", "", Lines),
+    length(Lines, Count),
+    Below is Above+Count-1,
+    findall(term(Term, Line),
+            ( member(term(Term, Line0), Its), Line is Line0+Above1 ),
+            Here),
+    append(Here, Others, Terms),
+    whole_text(Files, Heads, Below, Texts, Others).
+
 %   What both have is marked.
 
 side_by_side(alike(A, B, Share, Clauses), Marked) :-
@@ -235,7 +263,8 @@ side_by_side(alike(A, B, Share, Clauses), Marked) :-
     format("<details><summary>", []), text(A), format(" and ", []), text(B),
     format(": ~d %</summary>~n<div class=\"two\">~n", [Percent]),
     forall(( member(Name, [A, B]),
-             member(marked(Name, _, _, source(Text, Terms)), Marked) ),
+             member(marked(name: Name, submission: Submission), Marked),
+             whole_text(Submission, Text, Terms) ),
            ( clause_lines(Terms, Clauses, Starts),
              findall(Line, member(term(_, Line), Terms), Lines),
              split_string(Text, "\n", "\r", Texts),

@@ -1,7 +1,6 @@
 :- module(ev3dev_marking_run,
           [ marking_exercise/2,         % +File, +Text
-            marked_run/5                % +Name, +Text, +Seed, +Enclosed,
-                                        % -Result
+            marked_run/4                % +Files, +Seed, +Enclosed, -Result
           ]).
 :- use_module(read,
               [ exercise_happens/2, exercise_setting/3, exercise_world/3,
@@ -14,7 +13,8 @@
 :- use_module('../../sim', [with_sim/3]).
 :- use_module('../../sim_fenced', [sim_fenced/3]).
 :- use_module(library(filesex),
-              [ delete_directory_and_contents/1, directory_file_path/3 ]).
+              [ delete_directory_and_contents/1, directory_file_path/3,
+                make_directory_path/1 ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
@@ -40,14 +40,14 @@ marking_exercise(File, Text) :-
     retractall(exercise(_, _)),
     assertz(exercise(Exercise, Text)).
 
-%!  marked_run(+Name, +Text, +Seed, +Enclosed, -Result) is det.
+%!  marked_run(+Files, +Seed, +Enclosed, -Result) is det.
 %
-%   Run the program Text, whose file is called Name. Result is
+%   Run a program. Files are Path-Text, of which the first begins. Result is
 %   result(Ended, Seconds, Shares, Reason, Collision, Film, Collisions): the
 %   share of each score, a text of what went wrong or '', and one of how it
 %   ran into something, or ''.
 
-marked_run(Name, Text, Seed, Enclosed, Result) :-
+marked_run([Name-Text|Others], Seed, Enclosed, Result) :-
     exercise(Exercise, Salt),
     exercise_world(Exercise, Seed, World),
     exercise_setting(Exercise, goal(Goal), start),
@@ -59,8 +59,13 @@ marked_run(Name, Text, Seed, Enclosed, Result) :-
     exercise_setting(Exercise, memory(Memory), 2000),
     new_directory(ev3dev_mark, Directory),
     directory_file_path(Directory, Name, File),
+    findall(Other,
+            ( member(Path-_, Others),
+              directory_file_path(Directory, Path, Other) ),
+            Beside),
     setup_call_cleanup(
-        write_text(File, octet, Text),
+        forall(member(Path-Bytes, [Name-Text|Others]),
+               write_program(Directory, Path, Bytes)),
         with_sim(World,
                  ( exercise_happens(Exercise, Seed),
                    with_record(sim_fenced(File, Ended,
@@ -68,6 +73,7 @@ marked_run(Name, Text, Seed, Enclosed, Result) :-
                                             cpu(Cpu), sleep(Sleep),
                                             memory(Memory),
                                             enclosed(Enclosed),
+                                            files(Beside),
                                             output(Output), told(Lines),
                                             salt(Salt) ]),
                                Seed, World, Robot),
@@ -98,6 +104,12 @@ marked_run(Name, Text, Seed, Enclosed, Result) :-
     ),
     Result = result(Ended, Took, Shares, Reason1, Collision, Film,
                     Collisions).
+
+write_program(Directory, Path, Bytes) :-
+    directory_file_path(Directory, Path, File),
+    file_directory_name(File, Folder),
+    make_directory_path(Folder),
+    write_text(File, octet, Bytes).
 
 write_text(File, Encoding, Text) :-
     setup_call_cleanup(
