@@ -79,6 +79,9 @@ test(a_call_says_so_too, true(Output == ["go_cm/2", "pose/3"])) :-
                 catch(G, error(existence_error(foreign_library, ev3dev), _),
                       ( functor(G, N, A), format('~q~n', [N/A]) )))", Output0),
     findall(Line, ( member(Line, Output0), \+ says_so(Line) ), Output).
+test(an_error_that_nobody_catches_says_so_without_a_backtrace, true(Others == [])) :-
+    run("use_module(library(ev3dev)), go(30)", Output),
+    exclude(says_so, Output, Others).
 % As after "git pull" without "make"
 test(an_older_library_says_so_once, [ cleanup(make_new), true(Output == [true]) ]) :-
     make_old,

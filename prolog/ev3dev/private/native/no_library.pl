@@ -29,10 +29,12 @@ the library.
 
 without_library(Error) :-
     assertz(missing(Error)),
-    Error = error(_, context(_, Text)),
-    print_message(error, ev3dev(no_library(Text))).
+    print_message(error, Error).
 
-prolog:message(ev3dev(no_library(Text))) -->
+%   At the prompt, too, with no backtrace after it.
+
+prolog:message(error(Formal, context(_, Text))) -->
+    { Formal == existence_error(foreign_library, ev3dev) },
     [ 'library(ev3dev) cannot be used: ~w'-[Text] ].
 
 %   Libraries that offer what others export go on doing so.
