@@ -14,7 +14,8 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
-:- use_module(private/basics/fields, [fields/1, goal_expansion/2]).
+:- use_module(private/basics/fields,
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module(private/checks/checks, [must_be/2, must_be_goal/1]).
 :- use_module(private/errors/errors,
               [error_within/3, in_own_name/1, throw_error/3]).

@@ -11,7 +11,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
-:- use_module(private/basics/fields, [goal_expansion/2]).
+:- use_module(private/basics/fields, [goal_expansion/2, term_expansion/2]).
 :- use_module(private/checks/arguments, [must_be_options/3, number_option/4]).
 :- use_module(private/run/brick, [brick/1, of_brick/1]).
 :- use_module(private/checks/checks, [must_be/2]).

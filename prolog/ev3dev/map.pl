@@ -12,7 +12,8 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
-:- use_module(private/basics/fields, [fields/1, goal_expansion/2]).
+:- use_module(private/basics/fields,
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/explain/hints).

@@ -9,7 +9,7 @@
             turn/2              % +Speed, +Angle
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/basics/fields, [goal_expansion/2]).
+:- use_module(private/basics/fields, [goal_expansion/2, term_expansion/2]).
 :- use_module(private/checks/checks, [evaluated/2, must_be/2]).
 :- use_module(private/errors/errors, [domain_error/2]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).

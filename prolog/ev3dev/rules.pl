@@ -11,7 +11,8 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
-:- use_module(private/basics/fields, [fields/1, goal_expansion/2]).
+:- use_module(private/basics/fields,
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/errors,
               [ domain_error/2, error_within/3, existence_error/2,

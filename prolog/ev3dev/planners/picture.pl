@@ -1,7 +1,8 @@
 :- module(ev3dev_picture,
           [ draw_panels/5               % +File, +Map, +Start, +Goal, +Panels
           ]).
-:- use_module('../private/basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../private/basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module(library(lists), [member/2, nth0/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_values/2]).

@@ -1,12 +1,16 @@
 :- module(ev3dev_fields,
           [ fields/1,                   % +Record
+            is_named/2,                 % +Term, -Record
+            term_expansion/2,           % +Clause, -Expanded
             goal_expansion/2            % +Goal0, -Goal
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(small_lists, [one_of/2]).
 
 /** <module> Records whose fields have names
 
-A module that imports both predicates declares a record, such as
+A module that imports fields/1 and the two expansions declares a record, such
+as
 
     :- fields(wheel(port, diameter, inverted)).
 
@@ -14,7 +18,8 @@ Then wheel(diameter: D) in a goal means wheel(_, D, _), and the goal
 set_field(Wheel, wheel(diameter: D)) means nb_setarg/3 of the second argument;
 link_field/2 is the same for nb_linkarg/3. All are replaced when the file is
 compiled, so they cost nothing when they are called; library(record) would
-cost a call for each access.
+cost a call for each access. The head of a clause has no names: Prolog keeps
+the layout of a clause, by which it finds calls, only if its head stays.
 */
 
 :- dynamic record/2.                    % Name, Fields
@@ -90,9 +95,38 @@ nth(I, [_|Values], Value) :-
     I1 is I-1,
     nth(I1, Values, Value).
 
+%!  is_named(+Term, -Record) is semidet.
+%
+%   Record is the name of the first record in Term whose fields have names.
+
+is_named(Term, Record) :-
+    compound(Term),
+    compound_name_arguments(Term, Name, Args),
+    (   record(Name, _),
+        are_named(Args)
+    ->  Record = Name
+    ;   one_of(Args, Arg),
+        is_named(Arg, Record)
+    ->  true
+    ).
+
+%!  term_expansion(+Clause, -Expanded) is semidet.
+%
+%   Fails.
+%
+%   @error permission_error(name_fields, head, Record)
+
+term_expansion(Clause, _) :-
+    (   ( Clause = (Head :- _) ; Clause = (Head --> _) )
+    ->  true
+    ;   Head = Clause
+    ),
+    is_named(Head, Record),
+    throw(error(permission_error(name_fields, head, Record), _)).
+
 %!  goal_expansion(+Goal0, -Goal) is semidet.
 %
-%   Stands last, as Prolog calls it also for the clauses of this file.
+%   It stands last, as Prolog calls it also for the clauses of this file.
 
 goal_expansion(Goal0, Goal) :-
     positional(Goal0, Goal),

@@ -3,7 +3,8 @@
                                         % :Report, -Done
             redis_work/2                % +Address, +Workers
           ]).
-:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module(pool,
               [ batch_step/3, end_workers/1, start_workers/2,
                 workers_ready/2 ]).

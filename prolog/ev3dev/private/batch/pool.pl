@@ -4,7 +4,8 @@
             end_workers/1,              % +Pool
             batch_step/3                % +Limits, +State0, -State
           ]).
-:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module('../errors/errors', [throw_error/3]).
 :- use_module('../processes/usage',
               [ usage_begins/1, usage_beyond/3, usage_goes_on/5 ]).

@@ -3,7 +3,8 @@
             receive_message/3,          % +Brick, +Name, +Term
             next_message/4              % +Until, +Late, -From, ?Term
           ]).
-:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module('../run/brick',
               [brick/1, in_brick/2, is_simulated/0, of_brick/1]).
 :- use_module('../../time', [ev3_time/1, wait/1]).

@@ -8,7 +8,7 @@
             must_be_move_options/1,     % +Options
             backwards/2                 % +Direction, -Backwards
           ]).
-:- use_module('../basics/fields', [goal_expansion/2]).
+:- use_module('../basics/fields', [goal_expansion/2, term_expansion/2]).
 :- use_module('../checks/checks', [evaluated/2, must_be/2]).
 :- use_module('../errors/public_clauses', [term_expansion/4]).
 :- use_module('../explain/hints').

@@ -6,7 +6,8 @@
             drive_default/2,            % ?Name, ?Value
             store_drive_default/2       % +Name, +Value
           ]).
-:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module('../run/brick', [brick/1, of_brick/1]).
 :- use_module('../explain/hints', [fail_because/1]).
 

@@ -1,6 +1,7 @@
 :- module(ev3dev_public_clauses,
           [ term_expansion/4            % +Clause0, ?Layout0, -Clause, -Layout
           ]).
+:- use_module('../basics/fields', [is_named/2]).
 
 /** <module> The clauses of public predicates keep their frames and arguments
 
@@ -43,6 +44,7 @@ term_expansion((Head :- Body), Layout0, (Head :- Body, Kept), Layout) :-
     callable(Head),
     functor(Head, Name, Arity),
     is_exported(Name, Arity, Module),
+    \+ is_named(Head, _),               % fields.pl refuses it
     Head =.. [_|Arguments],
     kept(Arguments, Kept),
     layout(Layout0, Kept, Layout).

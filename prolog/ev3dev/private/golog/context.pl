@@ -24,7 +24,8 @@
             gave_up/2,                  % +Limit, +Far
             was_given_up/2              % -Limit, -Far
           ]).
-:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module(effort, [effort/4, watched_effort/3]).
 :- use_module(hints, [hint/3]).
 :- use_module(theory, [has_possible_values/1, located/3]).

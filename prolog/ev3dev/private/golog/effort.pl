@@ -9,7 +9,8 @@
             asks_history/1,             % +Effort
             how_far/2                   % +Effort, -Far
           ]).
-:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
 
 :- fields(effort(id, steps, deepest, limits, cpu, inferences, trial,
                  watch, outer, asked)).

@@ -5,7 +5,8 @@
             entries_done/4              % +Entries, +Situation0, -Situation,
                                         % +Context
           ]).
-:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module(library(assoc), [get_assoc/3, put_assoc/4]).
 :- use_module(library(lists), [reverse/2]).
 :- use_module(context, [context_mode/2, context_module/2]).

@@ -6,7 +6,8 @@
                                         % +Context
             state_of_run/3              % +Module, -Program, -Situation
           ]).
-:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(context,
               [ context/3, context_module/2, print_again/1, recorded_notes/2,

@@ -10,7 +10,8 @@
             assumed/3,                  % +Case, +Situation0, -Situation
             is_assumed/3                % +Condition, +Situation, -Truth
           ]).
-:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module('../basics/small_lists', [first_of/3]).
 :- use_module(library(assoc),
               [ assoc_to_keys/2, assoc_to_list/2, empty_assoc/1, get_assoc/3,

@@ -10,7 +10,7 @@
                                         % +Context
             fluents_now/3               % +Situation, +Context, -Pairs
           ]).
-:- use_module('../basics/fields', [goal_expansion/2]).
+:- use_module('../basics/fields', [goal_expansion/2, term_expansion/2]).
 :- use_module(library(assoc), [assoc_to_keys/2, get_assoc/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(context,

@@ -3,7 +3,7 @@
             tried/5,                    % :Goal, +Key, +Left, +Cut, +Context
             states_forgotten/1          % +Effort
           ]).
-:- use_module('../basics/fields', [goal_expansion/2]).
+:- use_module('../basics/fields', [goal_expansion/2, term_expansion/2]).
 :- use_module(context, [context_effort/2]).
 :- use_module(situation, [situation_state/2]).
 :- use_module(effort, [asked_history/1, effort_id/2, in_trial/1]).

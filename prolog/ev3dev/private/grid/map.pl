@@ -14,7 +14,8 @@
             must_be_cell/1,             % +Cell
             must_be_state/2             % +Map, +State
           ]).
-:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, list_to_assoc/2]).
 :- use_module('../checks/checks', [must_be/2]).

@@ -4,7 +4,7 @@
                                         % +Speed, -Reason
             planned/2                   % ?Brick, -Cells
           ]).
-:- use_module('../basics/fields', [goal_expansion/2]).
+:- use_module('../basics/fields', [goal_expansion/2, term_expansion/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../drive', [face/2, go_to/4]).
 :- use_module('../run/brick', [brick/1]).

@@ -9,7 +9,8 @@
             grid_metric/2,              % +Options, -Metric
             set_pose_in/3               % +Metric, +Cell, +Direction
           ]).
-:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module('../run/brick', [brick/1, of_brick/1]).
 :- use_module('../errors/public_clauses', [term_expansion/4]).
 :- use_module('../explain/hints', [fail_because/1]).

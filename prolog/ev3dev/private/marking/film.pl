@@ -1,7 +1,7 @@
 :- module(ev3dev_marking_film,
           [ film/3                      % +Exercise, +Seed, +Result
           ]).
-:- use_module('../basics/fields', [goal_expansion/2]).
+:- use_module('../basics/fields', [goal_expansion/2, term_expansion/2]).
 :- use_module(records, []).
 :- use_module('../../sim', [with_sim/3]).
 :- use_module('../../sim_views', [sim_svg/1]).

@@ -3,7 +3,7 @@
             tried/3,                    % +Exercise, +File, +Options
             check_solution/2            % +Exercise, +Options
           ]).
-:- use_module('../basics/fields', [goal_expansion/2]).
+:- use_module('../basics/fields', [goal_expansion/2, term_expansion/2]).
 :- use_module(records, []).
 :- use_module('../../sim_batch', [sim_batch/5]).
 :- use_module('../../sim_fenced', [can_enclose/0]).

@@ -3,7 +3,7 @@
                                         % +Marked
             write_page/3                % +File, +Exercise, +Marked
           ]).
-:- use_module('../basics/fields', [goal_expansion/2]).
+:- use_module('../basics/fields', [goal_expansion/2, term_expansion/2]).
 :- use_module(records, []).
 :- use_module(alike, [alike/2, clause_lines/3]).
 :- use_module(film, [film/3]).

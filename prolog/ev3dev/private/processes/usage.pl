@@ -6,7 +6,8 @@
             usage_age/2,                % +Used, -Seconds
             usage_beyond/3              % +Used, +Limits, -Limit
           ]).
-:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module('../native/native', [process_usage_/3]).
 
 :- fields(used(began, alive, looked, cpu, slept, rest)).

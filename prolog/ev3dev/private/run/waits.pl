@@ -9,7 +9,8 @@
             let_others_go_on/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module(brick, [brick/1, in_brick/2]).
 :- use_module('../native/native',
               [ read_on_/0, serve_if_due_/0, tick_after_/1, tick_at_once_/0

@@ -6,7 +6,8 @@
             run_due_goals/0,
             clock/1                     % -Seconds
           ]).
-:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module('../run/brick', [brick/1, of_brick/1]).
 :- use_module('../errors/frames', [goal_of_program/1]).
 :- use_module('../native/native', [sim_clock_/1, sim_plan_/1]).
