@@ -96,8 +96,8 @@ run_state(File, Options, Status, Output) :-
     read_to_end(Out, Output),
     process_wait(Pid, Status).
 
-%!  run_script(+File, +Arguments, -Status, -Output)
-%!  run_script(+File, +Arguments, +Typed, -Status, -Output)
+%!  run_script(+File, +Arguments, -Status, -Output) is det.
+%!  run_script(+File, +Arguments, +Typed, -Status, -Output) is det.
 %
 %   As run_program/4, but of a file, which gets Arguments, and the text Typed
 %   as its input.

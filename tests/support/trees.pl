@@ -191,8 +191,8 @@ default_robot([ in1-'lego-ev3-us',
                 outC-'lego-ev3-l-motor'
               ]).
 
-%!  with_tree(+Tree, :Goal)
-%!  with_tree(+Tree, +Devices, :Goal)
+%!  with_tree(+Tree, :Goal) is det.
+%!  with_tree(+Tree, +Devices, :Goal) is det.
 %
 %   Call Goal with nothing but these devices in Tree, on an endless empty floor;
 %   it may leave choice points. Devices is a list of Port-Type, by default those

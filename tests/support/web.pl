@@ -77,8 +77,8 @@ host(Port, Fields, Host) :-
 cookie(Port, Token, Field) :-
     format(string(Field), "Cookie: ev3view_~w=~w", [Port, Token]).
 
-%!  page_open(+Port, +Token, -Page)
-%!  page_open(+Port, +Path, +Fields, -Code, -Page)
+%!  page_open(+Port, +Token, -Page) is det.
+%!  page_open(+Port, +Path, +Fields, -Code, -Page) is det.
 %
 %   Open a websocket; Page is page(In, Out), or `none` if that was refused.
 

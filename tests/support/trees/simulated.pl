@@ -73,8 +73,8 @@ simulated_stop(mount, Root) :-
     ignore(sim_stop),
     delete_directory(Root).
 
-%!  simulated_plug(+Port, +Type)
-%!  simulated_unplug(+Port)
+%!  simulated_plug(+Port, +Type) is det.
+%!  simulated_unplug(+Port) is det.
 %
 %   Plug in or pull, and let pass what the kernel and udev need to notice.
 
@@ -101,8 +101,8 @@ told_type(Kind, Port, Type) :-
 root_of(Root) :-
     ev3_sysfs(Root).
 
-%!  simulated_read(+Kind, +File, -Text)
-%!  simulated_write(+Kind, +File, +Text)
+%!  simulated_read(+Kind, +File, -Text) is det.
+%!  simulated_write(+Kind, +File, +Text) is det.
 %
 %   As another program does. Within the process nobody but library(ev3dev) gets
 %   at the files.
