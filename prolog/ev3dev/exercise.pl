@@ -138,9 +138,9 @@ here. All places are `X-Y` in cm.
 %
 %   Name is that of the student's folder, or of the file without `.pl`, and
 %   Points, of Of, what it earned. Scores is a list of
-%   score(Text, Points, Of, Missed), Missed being the number of runs that did not earn it whole. Runs is a list of
-%   run(Seed, Points, Ended, Seconds): Ended is as of sim_fenced/3, or
-%   `not_run`. Reason is a text of what is wrong with the program, or ''.
+%   score(Text, Points, Of, Missed), Missed being the number of runs that did
+%   not earn it whole. Runs is a list of run(Seed, Points, Ended, Seconds):
+%   Ended is as of sim_fenced/3, or `not_run`. Reason is a text of what is wrong with the program, or ''.
 %   Options:
 %
 %     - seeds(Seeds)

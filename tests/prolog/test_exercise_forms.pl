@@ -4,6 +4,7 @@
 :- use_module('../support/trees').
 :- use_module(library(ev3dev/exercise)).
 :- use_module(library(ev3dev/private/app/command_line), []).
+:- use_module(library(ev3dev/private/marking/reasons), []).
 :- use_module(library(ev3dev/private/marking/submissions), []).
 :- use_module(library(filesex)).
 :- use_module(library(process)).
@@ -121,5 +122,30 @@ test(names_in_a_locale_without_letters, Text == "ok") :-
                          [environment(['LC_ALL'='C']), stdout(pipe(Out))]),
           read_string(Out, _, Text),
           close(Out) )).
+
+%   says(Output, Reason)
+says("Warning: /a/mine.pl:2:\nWarning:    Singleton variables: [B]\n\c
+      ERROR: -g start: is/2: Arithmetic: `foo/0' is not a function",
+     'It ended at 3.0 s: is/2: Arithmetic: `foo/0\' is not a function. \c
+      Also: Line 2: Singleton variables: [B]').
+says("ERROR: /a/mine.pl:1:\nERROR:    source_sink `library(nonesuch)' does not exist\n\c
+      Warning: /a/mine.pl:1:\nWarning:    Goal (directive) failed: user:use_module(library(nonesuch))\n\c
+      Warning: Motor blocked\nERROR: -g start: catch/3: Unknown procedure: bar/0",
+     'It ended at 3.0 s: Unknown procedure: bar/0. \c
+      Also: Line 1: source_sink `library(nonesuch)\' does not exist; Motor blocked').
+says("ERROR: -g start: Stack limit (1.0Gb) exceeded\nERROR:   Stack sizes: local: 1.0Gb\n\c
+      ERROR:   Possible non-terminating recursion:\nERROR:     [13,420,840] user:deep(13420830)\n\c
+      ERROR:     [13,420,839] user:deep(13420829)",
+     'It ended at 3.0 s: Stack limit (1.0Gb) exceeded: deep calls itself without end').
+says("ERROR: /a/mine.pl:1: Initialization goal raised exception:\n\c
+      ERROR: '$run_init_goal'/1: Unknown procedure: nothing/1",
+     'It ended at 3.0 s: Line 1: Initialization goal raised exception: \c
+      \'$run_init_goal\'/1: Unknown procedure: nothing/1').
+says("ERROR: [Thread main] -g start: my_ball\nWarning: /a/mine.pl:9:\nWarning:    Later",
+     'It ended at 3.0 s: my_ball. Also: Line 9: Later').
+says("Nothing is wrong", 'It ended at 3.0 s with the exit status 2.').
+
+test(the_error_comes_first, [forall(says(Output, Reason0)), Reason == Reason0]) :-
+    ev3dev_marking_reasons:reason(exit(2), Output, '/a/mine.pl', limits(1, 2), 3.0, Reason).
 
 :- end_tests(exercise_forms).

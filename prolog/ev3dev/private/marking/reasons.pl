@@ -2,7 +2,7 @@
           [ reason/6                    % +Ended, +Output, +File, +Limits,
                                         % +Seconds, -Reason
           ]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [list_to_set/2, member/2]).
 
 /** <module> Why a program ended, in a sentence
 
@@ -26,8 +26,10 @@ reason(exit(Status), Output, File, _, Seconds, Reason) :-
     ->  true
     ;   Status == 0
     ->  Reason = ''
-    ;   first_error(Output, File, Text)
-    ->  format(atom(Reason), 'It ended at ~1f s: ~w', [Seconds, Text])
+    ;   ranked(Output, File, [First|Rest])
+    ->  also(Rest, Also),
+        format(atom(Reason), 'It ended at ~1f s: ~w~w',
+               [Seconds, First, Also])
     ;   format(atom(Reason), 'It ended at ~1f s with the exit status ~w.',
                [Seconds, Status])
     ).
@@ -58,7 +60,7 @@ reason(refused(Why), _, _, _, Seconds, Reason) :-
 
 load_error(Output, File, Reason) :-
     messages(Output, File, Messages),
-    member(message(Where, Text), Messages),
+    member(message(_, Where, Text), Messages),
     Where \== '',
     ( sub_atom(Text, _, _, _, 'Syntax error: ') -> true ; fail ),
     !,
@@ -66,14 +68,49 @@ load_error(Output, File, Reason) :-
     atom_concat(_, 'Syntax error: ', Before),
     format(atom(Reason), '~w: ~w.', [Where, Fault]).
 
-first_error(Output, File, Reason) :-
+%   What is wrong, the worst first: what ended the program, errors in its
+%   file, other errors, warnings.
+
+ranked(Output, File, Texts) :-
     messages(Output, File, Messages),
-    member(message(Where, Text), Messages),
-    \+ string_concat("Prolog initialisation failed:", _, Text), % 7.2.3's
+    findall(Rank-Text,
+            ( member(message(Mark, Where, Text0), Messages),
+              rank(Mark, Where, Text0, Rank),
+              worded(Where, Text0, Text) ),
+            Ranked0),
+    keysort(Ranked0, Ranked),
+    findall(Text, member(_-Text, Ranked), Texts0),
+    list_to_set(Texts0, Texts).
+
+rank(_, _, Text, 1) :-
+    string_concat("-g ", _, Text),
+    !.
+rank(_, _, Text, _) :-
+    member(Begin, [ "Prolog initialisation failed:", % 7.2.3's
+                    "Goal (directive) failed" ]),    % the error is said
+    string_concat(Begin, _, Text),
     !,
+    fail.
+rank("ERROR: ", Where, _, Rank) :-
+    !,
+    ( Where == '' -> Rank = 3 ; Rank = 2 ).
+rank(_, _, _, 4).
+
+worded(Where, Text0, Text) :-
+    without_call(Text0, Text1),
+    without_stack(Text1, Text2),
     (   Where == ''
-    ->  without_call(Text, Reason)
-    ;   format(atom(Reason), '~w: ~w', [Where, Text])
+    ->  Text = Text2
+    ;   format(atom(Text), '~w: ~w', [Where, Text2])
+    ).
+
+%   At most two.
+
+also([], '').
+also([First|Rest], Also) :-
+    (   Rest = [Second|_]
+    ->  format(atom(Also), '. Also: ~w; ~w', [First, Second])
+    ;   format(atom(Also), '. Also: ~w', [First])
     ).
 
 %   -g start: catch/3: What was wrong
@@ -82,16 +119,33 @@ without_call(Text0, Text) :-
     (   sub_string(Text0, 0, _, _, "-g "),
         sub_string(Text0, Before, 2, _, ": ")
     ->  After is Before+2,
-        sub_string(Text0, After, _, 0, Text1),
-        (   string_concat("catch/3: ", Text2, Text1)
-        ->  Text = Text2
-        ;   Text = Text1
-        )
+        sub_string(Text0, After, _, 0, Text1)
+    ;   Text1 = Text0
+    ),
+    (   member(By, ["catch/3: ", "'$run_init_goal'/1: "]),
+        string_concat(By, Text2, Text1)
+    ->  Text = Text2
+    ;   Text = Text1
+    ).
+
+%   Of a stack that is full only what called itself.
+
+without_stack(Text0, Text) :-
+    (   sub_string(Text0, 0, _, _, "Stack limit "),
+        sub_string(Text0, Before, _, _, " exceeded"),
+        sub_string(Text0, 0, Before, _, Limit),
+        sub_string(Text0, _, _, From, "] user:"),
+        sub_string(Text0, _, From, 0, Goal),
+        sub_string(Goal, Length, 1, _, "("),
+        sub_string(Goal, 0, Length, _, Name)
+    ->  format(string(Text), "~w exceeded: ~w calls itself without end",
+               [Limit, Name])
     ;   Text = Text0
     ).
 
-%   Lines that Prolog marks as errors or warnings. What follows, and is
-%   indented, belongs to the first. Where is a line of File, or ''.
+%   Lines that Prolog marks as errors or warnings: message(Mark, Where, Text).
+%   What follows, and is indented, belongs to the first. Where is a line of
+%   File, or ''.
 
 messages(Output, File, Messages) :-
     split_string(Output, "\n", "\r", Lines),
@@ -99,16 +153,16 @@ messages(Output, File, Messages) :-
 
 found([], _, []).
 found([Line|Lines], File, Messages) :-
-    (   marked(Line, Text0)
+    (   marked(Line, Mark, Text0)
     ->  continued(Lines, Text0, Text1, Rest),
         placed(Text1, File, Where, Text),
-        Messages = [message(Where, Text)|Messages1],
+        Messages = [message(Mark, Where, Text)|Messages1],
         found(Rest, File, Messages1)
     ;   found(Lines, File, Messages)
     ).
 
 %   Prolog 10 says which thread it is.
-marked(Line, Text) :-
+marked(Line, Mark, Text) :-
     member(Mark, ["ERROR: ", "Warning: "]),
     string_concat(Mark, Text0, Line),
     !,
@@ -118,8 +172,10 @@ marked(Line, Text) :-
     ).
 
 continued([Line|Lines], Text0, Text, Rest) :-
-    marked(Line, More0),
-    string_concat("  ", _, More0),
+    marked(Line, _, More0),
+    (   string_concat("  ", _, More0)
+    ;   sub_string(Text0, _, _, 0, "raised exception:")
+    ),
     !,
     split_string(More0, "", " ", [More]),
     string_concat(Text0, " ", Text1),
