@@ -333,6 +333,34 @@ test(a_setting_of_old, What == wall(3)) :-
     wrong_exercise(["exercise(x, [wall(3)]).", "score(1, x)."], What).
 test(wrong_points, What == score(lots, x)) :-
     wrong_exercise(["exercise(x, []).", "score(lots, x)."], What).
+test(a_misspelt_predicate_of_a_score, What-Text == [path_lenght/1, xyzzy/0]-Says) :-
+    Says = 'line 3: there is no path_lenght/1 (did you mean path_length/1?); line 4: there is no xyzzy/0',
+    with_folder(( file(wrong, [ ":- use_module(library(ev3dev/exercise)).", "exercise(x, []).",
+                                "score(1, far) :- path_lenght(Cm), Cm > 1.",
+                                "score(partial(1), x, S) :- findall(x, xyzzy, L), length(L, S)." ], File),
+                  catch(exercise_mark(File, [], [], _),
+                        error(domain_error(exercise, What), context(_, Text)), true) )).
+test(what_the_solution_misses, Found == ["far, with the seed 2", "never, with every seed"]) :-
+    with_folder(( file(exercise, [ ":- use_module(library(ev3dev/exercise)).",
+                                   "exercise(x, [seeds(1-2), seconds(5)]).",
+                                   "score(1, far) :- run_seed(1).",
+                                   "score(1, drives) :- commands(N), N > 0.",
+                                   "score(1, never) :- collisions(7)." ], Exercise),
+                  program(honest, Honest), atom_concat(Stem, 'honest.pl', Honest),
+                  atom_concat(Stem, 'solution.pl', Solution), rename_file(Honest, Solution),
+                  with_output_to(string(Text), ( quietly(exercise_check(Exercise)) -> true ; true )) )),
+    split_string(Text, "\n", "", Lines),
+    findall(Part, ( member(Line, Lines), string_concat("The solution misses: ", Part, Line) ), Found).
+test(secret_seeds_are_not_shown, Shown-Secret == 1-2) :-
+    with_folder(( folder(Folder), atom_concat(Folder, '/marks', Out),
+                  file(mine, [ ":- use_module(library(ev3dev)).",
+                               "start :- set_robot(5.6, 10.6, outB, outC), go(60), wait(9)." ], File),
+                  mark_files([File], [seeds([1, 7654, 7655]), out(Out), formats([html])], _),
+                  read_report(Out, 'pages/mine.html', Page) )),
+    assertion(\+ sub_string(Page, _, _, _, "765")),
+    assertion(sub_string(Page, _, _, _, "it ran into the wall")),
+    occurrences(">secret<", Page, Secret),
+    occurrences("<tr><td class=\"n\">1<td class=\"n\">1<", Page, Shown).
 test(wrong_option, error(domain_error(exercise_option, seed(1)))) :-
     exercise_mark(nowhere, [], [seed(1)], _).
 test(no_exercise_file, error(existence_error(source_sink, nowhere))) :-

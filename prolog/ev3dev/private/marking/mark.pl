@@ -10,6 +10,7 @@
 :- use_module('../checks/arguments', [option/2, option/3]).
 :- use_module('../checks/checks', [must_be/2]).
 :- use_module('../errors/errors', [domain_error/2, in_own_name/1]).
+:- use_module(check, [check_exercise/1]).
 :- use_module(read,
               [ exercise_seeds/3, exercise_setting/3, forbidden/3,
                 read_exercise/2, seed_list/2 ]).
@@ -32,8 +33,7 @@ marked_run/4, or `not_run`; and the submission as of submissions/4.
 %!  marks(+Exercise, +Files, +Options, -Marks) is det.
 
 marks(Exercise0, Files, Options, Marks) :-
-    prolog_file(Exercise0, Exercise),
-    read_exercise(Exercise, Read),
+    exercise_to_mark(Exercise0, Exercise, Read),
     seeds(Read, all, Options, Seeds),
     handed_in(Files, Read, Submissions, Left),
     forall(member(left(File, Why), Left),
@@ -58,6 +58,11 @@ handed_in(Files, Read, Submissions, Left) :-
     exercise_setting(Read, goal(Goal), start),
     submissions(Files, Goal, Submissions, Left).
 
+exercise_to_mark(Exercise0, Exercise, Read) :-
+    prolog_file(Exercise0, Exercise),
+    read_exercise(Exercise, Read),
+    check_exercise(Read).
+
 prolog_file(File, Path) :-
     in_own_name(absolute_file_name(File, Path,
                                    [file_type(prolog), access(read)])).
@@ -74,12 +79,11 @@ seeds(Read, Which, Options, Seeds) :-
 %!  tried(+Exercise, +File, +Options) is semidet.
 
 tried(Exercise0, File, Options) :-
-    prolog_file(Exercise0, Exercise),
-    read_exercise(Exercise, Read),
+    exercise_to_mark(Exercise0, Exercise, Read),
     printed(Exercise, Read, open, File, Options, Marked),
     (   option(page(Page), Options)
     ->  use_module(library(ev3dev/private/marking/report), []),
-        ev3dev_marking_report:write_page(Page, Read, Marked),
+        ev3dev_marking_report:write_page(Page, Read, all, Marked),
         format("The picture: ~w~n", [Page])
     ;   true
     ),
@@ -88,8 +92,7 @@ tried(Exercise0, File, Options) :-
 %!  check_solution(+Exercise, +Options) is semidet.
 
 check_solution(Exercise0, Options) :-
-    prolog_file(Exercise0, Exercise),
-    read_exercise(Exercise, Read),
+    exercise_to_mark(Exercise0, Exercise, Read),
     exercise_setting(Read, solution(Solution), 'solution.pl'),
     file_directory_name(Exercise, Folder),
     directory_file_path(Folder, Solution, File),
@@ -101,7 +104,28 @@ check_solution(Exercise0, Options) :-
     sort(All, Spread),
     format("The least of a run is ~w, with the seed ~w; all: ~w~n",
            [Least, LeastSeed, Spread]),
+    Marked = marked(results: Results),
+    forall(missing(Read, Results, Text, Missed),
+           format("The solution misses: ~w, with ~w~n", [Text, Missed])),
     earned_all(Marked).
+
+%   A score that some run did not earn whole.
+
+missing(exercise(_, _, _, Scores), Results, Text, Missed) :-
+    nth1(Index, Scores, score(_, Text, _, _)),
+    findall(Seed,
+            ( member(result(Seed, Result), Results),
+              share(Result, Index, Share),
+              Share < 1 ),
+            Seeds),
+    (   length(Results, All),
+        length(Seeds, All)
+    ->  Missed = 'every seed'
+    ;   Seeds = [_|_],
+        atomic_list_concat(Seeds, ', ', Listed),
+        ( Seeds = [_] -> Word = seed ; Word = seeds ),
+        format(atom(Missed), 'the ~w ~w', [Word, Listed])
+    ).
 
 earned_all(Marked) :-
     Marked = marked(mark: Mark),
@@ -120,15 +144,10 @@ printed(Exercise, Read, Which, File, Options, Marked) :-
     length(Runs, Count),
     forall(member(Score, Scores), print_score(Score, Count)),
     format("Together: ~w of ~w points, in ~d runs.~n", [Points, Of, Count]),
-    forall(( member(Why, [Reason|Results]), why_text(Why, Text) ),
-           format("~w~n", [Text])).
-
-why_text(result(_, Result), Text) :-
-    !,
-    Result = result(collision: Text),
-    Text \== ''.
-why_text(Reason, Reason) :-
-    Reason \== ''.
+    ( Reason == '' -> true ; format("~w~n", [Reason]) ),
+    forall(( member(result(Seed, result(collision: Text)), Results),
+             Text \== '' ),
+           format("With the seed ~w: ~w~n", [Seed, Text])).
 
 print_score(score(Text, Points, Of, Missed), Count) :-
     format("  ~w~t~8|of ~w~t~16|~w", [Points, Of, Text]),

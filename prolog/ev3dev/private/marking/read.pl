@@ -7,6 +7,7 @@
             exercise_happens/2,         % +Exercise, +Seed
             score_shares/2,             % +Exercise, -Shares
             forbidden/3,                % +Exercise, +Terms, -Reason
+            wrong/2,                    % +What, +Message
             program_terms/2             % +Text, -Terms
           ]).
 :- use_module('../errors/errors', [in_own_name/1, throw_error/3]).
@@ -59,6 +60,10 @@ read_exercise(File, exercise(Module, Name, Options, Scores)) :-
     ->  wrong(score(Points, Text), 'points are numbers above 0')
     ;   true
     ).
+
+%!  wrong(+What, +Message)
+%
+%   Throws domain_error(exercise, What).
 
 wrong(What, Message) :-
     throw_error(domain_error(exercise, What), _, Message).

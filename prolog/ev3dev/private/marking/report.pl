@@ -1,12 +1,13 @@
 :- module(ev3dev_marking_report,
           [ write_reports/4,            % +Formats, +Directory, +Exercise,
                                         % +Marked
-            write_page/3                % +File, +Exercise, +Marked
+            write_page/4                % +File, +Exercise, +Shown, +Marked
           ]).
 :- use_module('../basics/fields', [goal_expansion/2, term_expansion/2]).
 :- use_module(records, []).
 :- use_module(alike, [alike/2, clause_lines/3]).
 :- use_module(film, [film/3]).
+:- use_module(read, [exercise_seeds/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(csv), [csv_write_stream/3]).
@@ -35,7 +36,8 @@ write_report(html, Directory, Exercise, Marked) :-
     forall(member(One, Marked),
            ( One = marked(name: Name),
              html_file(Pages, Name, File),
-             write_page(File, Exercise, One) )),
+             exercise_seeds(Exercise, open, Open),
+             write_page(File, Exercise, Open, One) )),
     directory_file_path(Directory, 'index.html', Index),
     to_file(Index, class_page(Exercise, Marked)).
 write_report(gradescope, Directory, _, Marked) :-
@@ -94,17 +96,18 @@ style :-
             svg { max-width: 100%; height: auto; background: #fff }~n\c
             input[type=range] { width: 100% }~n", []).
 
-%!  write_page(+File, +Exercise, +Marked) is det.
+%!  write_page(+File, +Exercise, +Shown, +Marked) is det.
 %
-%   The page of one program, with its worst run.
+%   The page of one program, with its worst run. Shown is a list of the seeds
+%   that the student may see, or `all`.
 
-write_page(File, Exercise, Marked) :-
+write_page(File, Exercise, Shown, Marked) :-
     Exercise = exercise(_, Title0, _, _),
     Marked = marked(name: Name),
     format(atom(Title), '~w: ~w', [Title0, Name]),
-    to_file(File, page(Title, one_page(Exercise, Marked))).
+    to_file(File, page(Title, one_page(Exercise, Shown, Marked))).
 
-one_page(Exercise, marked(_, Mark, Results, _)) :-
+one_page(Exercise, Shown, marked(_, Mark, Results, _)) :-
     Mark = mark(_, Points, Of, Scores, Runs, Reason),
     format("<p><strong>~w of ~w points</strong></p>~n", [Points, Of]),
     (   Reason == ''
@@ -122,12 +125,15 @@ one_page(Exercise, marked(_, Mark, Results, _)) :-
              ;   format("<td>~d of ~d runs~n", [Missed, Count])
              ) )),
     format("</table></div>~n<h2>Runs</h2>~n<div class=\"wide\"><table>~n\c
-            <tr><th class=\"n\">Seed<th class=\"n\">Points\c
-            <th class=\"n\">Seconds<th>End<th>Remark~n", []),
+            <tr><th class=\"n\">Run<th class=\"n\">Seed\c
+            <th class=\"n\">Points<th class=\"n\">Seconds<th>End\c
+            <th>Remark~n", []),
     forall(( nth1(N, Runs, run(Seed, P, Ended, Seconds)),
              nth1(N, Results, result(_, Result)) ),
-           ( format("<tr><td class=\"n\">~w<td class=\"n\">~w\c
-                     <td class=\"n\">~w<td>", [Seed, P, Seconds]),
+           ( ( shown(Seed, Shown) -> Says = Seed ; Says = secret ),
+             format("<tr><td class=\"n\">~w<td class=\"n\">~w\c
+                     <td class=\"n\">~w<td class=\"n\">~w<td>",
+                    [N, Says, P, Seconds]),
              end_words(Ended, Words),
              text(Words),
              format("<td>", []),
@@ -140,10 +146,16 @@ one_page(Exercise, marked(_, Mark, Results, _)) :-
              nl )),
     format("</table></div>~n", []),
     (   worst(Runs, Results, Seed, Result)
-    ->  format("<h2>The worst run, with the seed ~w</h2>~n", [Seed]),
+    ->  once(nth1(Which, Results, result(Seed, Result))),
+        format("<h2 id=\"worst\">The worst run: run ~d</h2>~n", [Which]),
         film(Exercise, Seed, Result)
     ;   true
     ).
+
+shown(_, all) :-
+    !.
+shown(Seed, Shown) :-
+    memberchk(Seed, Shown).
 
 end_words(over, 'time over').
 end_words(not_run, 'not run').

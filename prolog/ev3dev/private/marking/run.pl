@@ -8,7 +8,7 @@
 :- use_module(reasons, [reason/6]).
 :- use_module(record,
               [record_end/3, recorded/3, run_fact/1, with_record/4]).
-:- use_module(why, [collision_reason/2]).
+:- use_module(why, [collision_reason/1]).
 :- use_module('../files/directory', [new_directory/2]).
 :- use_module('../../sim', [with_sim/3]).
 :- use_module('../../sim_fenced', [sim_fenced/3]).
@@ -98,7 +98,7 @@ marked_run([Name-Text|Others], Seed, Enclosed, Result) :-
     ;   Shares = none,
         Reason1 = Reason
     ),
-    (   collision_reason(Seed, Collision)
+    (   collision_reason(Collision)
     ->  true
     ;   Collision = ''
     ),

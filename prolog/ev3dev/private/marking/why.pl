@@ -1,5 +1,5 @@
 :- module(ev3dev_marking_why,
-          [ collision_reason/2          % +Seed, -Text
+          [ collision_reason/1          % -Text
           ]).
 :- use_module(record, [run_collision/1, run_fact/1]).
 :- use_module(library(lists), [last/2, member/2, nth0/3]).
@@ -7,18 +7,17 @@
 /** <module> Why a robot ran into something
 */
 
-%!  collision_reason(+Seed, -Text) is semidet.
+%!  collision_reason(-Text) is semidet.
 %
 %   Of the first collision in the run that is recorded. Fails if there was
 %   none.
 
-collision_reason(Seed, Text) :-
+collision_reason(Text) :-
     run_collision(collision(Time, X, Y, _)),
     !,
     into(X, Y, What),
     format(atom(Text0),
-           'In the run with the seed ~w, at ~1f s, it ran into ~w.',
-           [Seed, Time, What]),
+           'At ~1f s it ran into ~w.', [Time, What]),
     (   findall(Rule, ( run_fact(told(Then, Rule)), Then =< Time ), Rules),
         last(Rules, Rule)
     ->  format(atom(Text1), '~w It acted by: ~w.', [Text0, Rule])
