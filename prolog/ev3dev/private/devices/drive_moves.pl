@@ -125,14 +125,13 @@ ended(Reason, Course) :-
 :- multifile prolog:message//1.
 
 prolog:message(ev3dev(astray([Left, Right]))) -->
-    [ 'the gyro does not follow the wheels at ~w and ~w. Possible causes:'-[Left, Right],
-      nl,
-      '  - a motor is mounted backwards: add the option inverted([left]) '-[],
-      'or inverted([right]) to set_robot'-[], nl,
-      '  - the left and the right motor are swapped: exchange their ports '-[],
-      'in set_robot/4'-[], nl,
-      '  - the gyro is mounted upside down: drive_option(use_gyro, false)'-[],
-      nl,
+    [ 'the gyro does not follow the wheels at ~w and ~w. '-[Left, Right],
+      'Possible causes:'-[], nl,
+      '  - a motor is mounted backwards: add the option '-[],
+      'inverted([left]) or inverted([right]) to set_robot'-[], nl,
+      '  - the left and the right motor are swapped: '-[],
+      'exchange their ports in set_robot/4'-[], nl,
+      '  - the gyro is upside down: drive_option(use_gyro, false)'-[], nl,
       '  - the wheels spin on the spot'-[]
     ].
 
