@@ -1,4 +1,4 @@
-// What the program prints, what Prolog says, and the line for queries.
+// The output of the program, the messages of Prolog, and the line for queries.
 
 import { $, el, text } from './view/dom.js';
 

@@ -1,4 +1,4 @@
-// What a page needs, from the files of this machine: for node.
+// The parts of a page, from the files of this machine: for node.
 
 import fs from 'node:fs';
 import path from 'node:path';

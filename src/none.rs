@@ -1,5 +1,5 @@
-//! What a page lacks: a server of its own, and a fence around another process. Their predicates
-//! fail.
+//! The parts that a page lacks: a server of its own, and a fence around another process. Their
+//! predicates fail.
 use swipl::prelude::*;
 
 natives! {

@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# What every script here starts with: where things are, how to fail, how two
+# The beginning of every script here: where things are, how to fail, how two
 # runs keep out of each other's way. Sourced, not run.
 
 # The pack's root folder, and the git-ignored folder for all that is fetched.

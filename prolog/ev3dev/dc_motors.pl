@@ -66,7 +66,7 @@ dc_motor_run(Port, Percent0) :-
 %   Fails if somebody else stops the motor before. Options:
 %
 %     - stop_action(+Action)
-%       What the motor does at the end: `brake` (default) or `coast`.
+%       The motor's action at the end: `brake` (default) or `coast`.
 %     - wait(+Boolean)
 %       If `false`, return as soon as the motor runs.
 %     - timeout(+Seconds)

@@ -163,9 +163,9 @@ order and in several files.
 %       there is one. On a virtual clock no time passes during a search; then
 %       one step may compute for that long.
 %     - initial(+History)
-%       What is taken to have happened before. Default is [].
+%       The actions that have happened before. Default is [].
 %     - on_failed(+What)
-%       What follows if an action fails: `continue` (default) with
+%       The reaction to an action that fails: `continue` (default) with
 %       failed(Action) in the history, `stop`, or `backtrack` to another step.
 %     - gexec(+Meaning)
 %       `guard` (default): gexec(P, E) runs E as long as P holds. `assume`: P

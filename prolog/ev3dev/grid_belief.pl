@@ -244,7 +244,7 @@ shares(Belief, bounds(X1, Y1, X2, Y2), Shares) :-
 %     - actions(+Count)
 %       The most moves and turns. Default is 60.
 %     - policy(:Policy)
-%       What to do next: call(Policy, Free, Done, Belief, Action), where Done
+%       The next action: call(Policy, Free, Done, Belief, Action), where Done
 %       are the actions so far, the last one first. `entropy`, the default:
 %       after which one more look may be expected to show most, and after 15
 %       actions as `ahead`: ahead while a cell is free there, else a turn to

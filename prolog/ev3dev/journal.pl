@@ -136,7 +136,7 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %
 %     - a port or a light, such as `outB`
 %     - `robot`
-%       What moves the robot that is set, or its motors.
+%       The cause that moves the robot that is set, or its motors.
 %     - `stop`
 %       The last stop of a motor, or end of a course.
 %     - `sound`
@@ -161,7 +161,7 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %     - leg(Part)
 %       of library(ev3dev/navigation)
 %     - course(Course, Options)
-%       What a wheel's motor is driven for.
+%       The course for which a wheel's motor is driven.
 %     - replay(File)
 %
 %   Command is

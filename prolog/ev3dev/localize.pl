@@ -92,7 +92,7 @@ Sources: Thrun, Burgard, Fox: Probabilistic Robotics (2005), chapters 6 and 8.
 %       The way or turn after which a measurement counts. Default is
 %       update(2, 4).
 %     - model(+List)
-%       What the sensor may measure: half_angle(Degrees) of its cone, 15;
+%       The model of the sensor: half_angle(Degrees) of its cone, 15;
 %       sigma(Cm, Share), its standard deviation, 2 cm and 0.02 of the
 %       distance; the shares hit(H), 0.75, short(S), of things that the map
 %       lacks, 0.10, missing(M), of echoes not heard, 0.08, and random(R),
@@ -104,7 +104,7 @@ Sources: Thrun, Burgard, Fox: Probabilistic Robotics (2005), chapters 6 and 8.
 %       root of the way. Default is wander(0.1, 0.12, 0.2) with a gyro, and
 %       wander(0.1, 0.2, 0.5) without.
 %     - sensor(+X, +Y, +Heading)
-%       Where the ultrasonic sensor is, as for navigate_to/3.
+%       The place of the ultrasonic sensor, as for navigate_to/3.
 %     - radius(+Cm)
 %       The radius of the robot's hull. Default is 8.
 %     - seed(+Integer)

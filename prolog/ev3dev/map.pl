@@ -77,7 +77,7 @@ Source: Thrun: Learning occupancy grid maps with forward sensor models (2003).
 %     - every(+Seconds)
 %       Default is 0.1.
 %     - sensor(+X, +Y, +Heading)
-%       Where the ultrasonic sensor is, as for navigate_to/3.
+%       The place of the ultrasonic sensor, as for navigate_to/3.
 %
 %   @error domain_error(map_option, Option)
 

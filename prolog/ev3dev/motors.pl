@@ -114,7 +114,7 @@ motors_run(Runs0) :-
 %   somebody else stops it. Options:
 %
 %     - stop_action(+Action)
-%       What the motor does at the end: `hold` its position (default), `brake`
+%       The motor's action at the end: `hold` its position (default), `brake`
 %       or `coast`; with these two it overshoots.
 %     - wait(+Boolean)
 %       If `false`, return as soon as the motor runs. See motor_wait/3.

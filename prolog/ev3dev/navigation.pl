@@ -54,8 +54,8 @@ them it plans the way again.
 %     - speed(+CmPerSecond)
 %       Default is 15.
 %     - sensor(+X, +Y, +Heading)
-%       Where the ultrasonic sensor is, to the right and ahead of the middle
-%       of the axle, and where it looks. Default is sensor(0, 7, 0), the
+%       The place of the ultrasonic sensor, to the right and ahead of the
+%       middle of the axle, and its direction. Default is sensor(0, 7, 0), the
 %       shipped robot's.
 %     - tolerance(+Cm)
 %       How near to Goal is there. Default is 2.
@@ -70,7 +70,7 @@ them it plans the way again.
 %     - steps(+Count)
 %       Default is 200.
 %     - obstacles(-Polygons)
-%       What was seen that Map lacks, facts as a map has.
+%       Facts, as a map has, of things that were seen and Map lacks.
 %
 %   Fails unless Goal is reached, unless asked for the reason; `debug(ev3dev)`
 %   reports it. Nothing moves if there is no path on Map as it is. Fails also

@@ -206,7 +206,7 @@ nxt_close :-
 %
 %   Call Goal once for the robot Alias, which is that of
 %   nxt_robot_definition, or `nxt`. There is one robot. Options are ignored.
-%   What these did is guessed.
+%   Their meaning is guessed.
 %
 %   @error existence_error(nxt_robot, Alias)
 

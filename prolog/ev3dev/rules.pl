@@ -248,7 +248,7 @@ shared([V|Vs], Others, Shared) :-
 %       `throw`, the default, or `continue`: print errors of guards and
 %       actions, and count the rule as not applicable, or ended.
 %     - state(+State)
-%       What state/1 is at the beginning. Default is `start`.
+%       The state/1 at the beginning. Default is `start`.
 %
 %   @error existence_error(rule, Name)
 %   @error type_error(rule, Term)

@@ -1,4 +1,4 @@
-//! What a thread has found, by the atoms of its calls.
+//! The devices that a thread has found, by the atoms of its calls.
 //!
 //! A program asks for the same few devices thousands of times a second. What one of its
 //! calls has found, the next ones have at once, for as long as the listing of the class is

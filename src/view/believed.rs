@@ -1,4 +1,4 @@
-//! Where the program believes the robot to be, in the world.
+//! The place in the world where the program believes the robot to be.
 //!
 //! The drive notes in which frame the odometry counts.
 use super::notes::notes;

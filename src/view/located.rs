@@ -1,4 +1,4 @@
-//! What is believed and known of places beside the pose: by a localizer, and by a map that the
+//! Beliefs and knowledge of places beside the pose: by a localizer, and by a map that the
 //! robot makes.
 use super::believed::{ToWorld, ellipse};
 use super::notes::notes;

@@ -1,4 +1,4 @@
-//! What pages get beside the state: the log, values of the program, and what seldom changes.
+//! The data for pages beside the state: the log, values of the program, and what seldom changes.
 use super::state::{Entry, Report};
 use ev3_json::Json;
 use ev3_os::locked;

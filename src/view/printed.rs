@@ -1,4 +1,4 @@
-//! What the program prints, for the page's log.
+//! The output of the program, for the page's log.
 use super::reach::seconds;
 use ev3_os::Instant;
 use ev3_os::locked;

@@ -1,4 +1,4 @@
-//! What pages get of the simulator. No time passes, and nothing changes by it.
+//! The state of the simulator, for pages. No time passes, and nothing changes by it.
 use super::believed::{ToWorld, believe, believed};
 use super::hand::pulled;
 use super::notes::notes;

@@ -1,4 +1,4 @@
-//! What pages get: each struct is an object of docs/view-protocol.md. `simulated.rs` fills
+//! The state for pages: each struct is an object of docs/view-protocol.md. `simulated.rs` fills
 //! them from the simulator, `brick.rs` from the driver, and only here they are written as JSON.
 use crate::glue::state::watched;
 use ev3_json::Json;

@@ -1,4 +1,4 @@
-// How long the playground takes, and how much memory; printed, not judged.
+// The time and the memory that the playground takes; printed, not judged.
 
 import { execFile } from 'node:child_process';
 import { promisify } from 'node:util';

@@ -1,4 +1,4 @@
-// What a person does with the playground, in a browser that has never seen it.
+// A person's first use of the playground, in a browser that has never seen it.
 
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';

@@ -7,7 +7,7 @@
             all_cases/0
           ]).
 
-/** <module> How many random cases a test tries
+/** <module> The number of random cases that a test tries
 
 All of them, unless EV3DEV_TEST_PERCENT in the environment says how many
 percent: an emulated EV3 takes twenty to two hundred times as long for each.

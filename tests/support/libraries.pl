@@ -5,7 +5,7 @@
 :- use_module(child).
 :- use_module(library(lists)).
 
-/** <module> What the public libraries export
+/** <module> The exports of the public libraries
 
 A Prolog of its own loads them all, as a program does, and reports what their
 modules export. The test that asks has loaded none of them by that.

@@ -2,7 +2,7 @@
           [ evaluated/2                 % +Expression, -Number
           ]).
 
-/** <module> What the tests use and SWI-Prolog 7.2.3, the brick's, lacks
+/** <module> Predicates that SWI-Prolog 7.2.3, the brick's, lacks
 
 Lambda expressions, library(yall), came with 7.3.2. Where they are missing this
 module has the part that the tests use: `[X1, ...]>>Goal`, called with as many

@@ -10,7 +10,7 @@
 :- use_module(library(ev3dev/private/golog/programs)).
 :- use_module(library(ev3dev/private/help/libraries)).
 
-/** <module> What papers list is what the pack has
+/** <module> A check that papers list what the pack has
 
 Each table of a paper that repeats what the pack can tell is compared with the
 pack itself.

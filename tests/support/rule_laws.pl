@@ -4,7 +4,7 @@
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 
-/** <module> What behave/1 promises, read from the journal
+/** <module> The promises of behave/1, checked by the journal
 
 An oracle for the runs of rule_sets.pl. It knows what the sensors showed when,
 and what the journal says, and nothing of how behave/1 works. It says what is

@@ -2,7 +2,7 @@
 :- use_module(library(lists), [last/2]).
 :- use_module(library(readutil)).
 
-/** <module> How long something takes, without what a busy machine adds
+/** <module> The time that something takes, without what a busy machine adds
 */
 
 :- meta_predicate undisturbed(0, -).

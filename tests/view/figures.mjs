@@ -1,4 +1,4 @@
-// How long things take from a program to the page and back; printed, not
+// The delays from a program to the page and back; printed, not
 // judged: wall time depends on what else the machine does.
 
 import { Session, browse, open, shows, state } from './session.mjs';

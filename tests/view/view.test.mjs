@@ -1,4 +1,4 @@
-// What a person does with the page, done in a browser. Each group has a
+// A person's use of the page, in a browser. Each group has a
 // session of its own.
 
 import assert from 'node:assert/strict';

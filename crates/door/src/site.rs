@@ -1,4 +1,4 @@
-//! What is served where.
+//! The paths of the site, and the content of each.
 use crate::head::{Head, MOST_FIELDS};
 use httparse::EMPTY_HEADER;
 use sha1_smol::Sha1;

@@ -1,4 +1,4 @@
-//! What the program did to motors, lights and the loudspeaker, when, and why.
+//! The acts of the program on motors, lights and the loudspeaker, with their times and causes.
 //!
 //! The journal is a ring of the last [`ROOM`] commands of a tree. It takes its room at the
 //! first command; then a command to a motor allocates nothing. The drive notes a course

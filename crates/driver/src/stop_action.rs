@@ -1,4 +1,4 @@
-//! What a motor does when it is stopped.
+//! The action of a motor when it is stopped.
 
 /// The action of a motor at the end of a move, or when it is stopped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! What an update takes: 500 particles and a measurement, in a room with three boxes.
+//! The time that an update takes: 500 particles and a measurement, in a room with three boxes.
 //!
 //! `cargo run --release -p ev3-localize --example update -- UPDATES [table]`
 //!

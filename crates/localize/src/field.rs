@@ -1,4 +1,4 @@
-//! What a sensor would measure at each place of a map.
+//! The measurement that a sensor would give at each place of a map.
 use crate::model::FAR;
 use ev3_motion::{Point, Pose};
 use ev3_roadmap::{Bounds, Map, Obstacle};

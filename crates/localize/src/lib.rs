@@ -1,4 +1,4 @@
-//! Where a robot with an ultrasonic sensor is on a map.
+//! Localization of a robot with an ultrasonic sensor on a map.
 //!
 //! Pure: no devices, no clock, no Prolog. The caller gives each measurement with the pose by
 //! odometry, and asks for the poses that are possible.

@@ -1,4 +1,4 @@
-//! How probable a measurement is, and how uncertain a move.
+//! The probability of a measurement, and the uncertainty of a move.
 use ev3_motion::{Pose, wrapped};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg32;

@@ -1,4 +1,4 @@
-//! Where a robot may be that has looked around: a search over all of the map.
+//! The places where a robot that has looked around may be: a search over all of the map.
 //!
 //! Particles spread evenly and weighed by one measurement after the other, as textbooks have it,
 //! are soon sure of a wrong place: too few of them are near to the right one, and each

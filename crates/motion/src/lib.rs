@@ -1,4 +1,4 @@
-//! Where a robot is in the plane, and along which line or arc it goes.
+//! The pose of a robot in the plane, and the lines and arcs along which it goes.
 //!
 //! Pure geometry: no devices, no obstacles, no clock. The driver steers along
 //! what is here, and the roadmap finds it.

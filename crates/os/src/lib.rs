@@ -1,4 +1,4 @@
-//! What the other crates take from the operating system: the kernel's error numbers, the
+//! The operating system, for the other crates: the kernel's error numbers, the
 //! clock of the wall, and sleep.
 //!
 //! On Unix these are rustix's and the standard library's. In WebAssembly there is no operating

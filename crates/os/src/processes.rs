@@ -1,4 +1,4 @@
-//! What the kernel says of other processes: how much processor time they have used, and whether
+//! The kernel's report on other processes: how much processor time they have used, and whether
 //! all of them sleep.
 //!
 //! A thread that can run is awake, also while other programs have the processors. So nothing

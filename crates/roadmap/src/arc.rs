@@ -1,4 +1,4 @@
-//! How far things are from arcs of less than half a turn.
+//! Distances of things from arcs of less than half a turn.
 use crate::geometry::{Point, Vec2, cross, distance, length, parry, vec2};
 use ev3_motion::Segment;
 use parry2d_f64::query::PointQuery;

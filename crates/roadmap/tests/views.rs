@@ -1,4 +1,4 @@
-//! What may be made of the looks of an ultrasonic sensor.
+//! Obstacles that are found by the looks of an ultrasonic sensor.
 use ev3_roadmap::{Map, Obstacle, Options, Point, View, Views, plan};
 use proptest::prelude::*;
 

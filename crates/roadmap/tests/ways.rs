@@ -1,4 +1,4 @@
-//! What holds for every map and every way.
+//! Laws that hold for every map and every way.
 #![expect(
     clippy::cast_possible_truncation,
     clippy::cast_precision_loss,

@@ -1,4 +1,4 @@
-//! Whether the thread that has crashed is still in the handler.
+//! A test whether the thread that has crashed is still in the handler.
 //!
 //! The handler of a crash returns, or Prolog leaves it by longjmp and goes on, or it waits for
 //! ever, as one that writes the stack down while another thread has the allocator's lock. The

@@ -1,4 +1,4 @@
-//! What the watchdog learns: two bytes, the kind of an event and the number of a signal.
+//! The events that the watchdog learns: two bytes, the kind of an event and the number of a signal.
 //!
 //! The bytes go through a socket, so a handler of a signal may write them, too: it takes no lock
 //! and never waits.

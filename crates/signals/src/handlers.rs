@@ -1,4 +1,4 @@
-//! What is done in the handlers of signals themselves.
+//! The handlers of signals themselves.
 use crate::events::{self, is_child};
 use crate::latch::{self, Reason};
 use crate::stack::own_handlers_stack;

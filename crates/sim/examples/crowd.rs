@@ -1,4 +1,4 @@
-//! How fast several robots in one world are simulated: each drives, and reads its ultrasonic
+//! The speed of a simulation of several robots in one world: each drives, and reads its ultrasonic
 //! sensor 50 times a second. Prints the number of robots, simulated seconds in a second of the
 //! processor, and microseconds for a tick of one robot.
 //!

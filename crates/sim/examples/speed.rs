@@ -1,4 +1,4 @@
-//! How many simulated seconds pass in a second of wall time, with a program that polls.
+//! The simulated seconds that pass in a second of wall time, with a program that polls.
 //!
 //! `cargo run --release -p ev3-sim --example speed [-- SECONDS]`
 

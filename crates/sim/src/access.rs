@@ -1,4 +1,4 @@
-//! What a program does with the files of a simulation. Its machine is here, or far ([`crate::far`]).
+//! A program's access to the files of a simulation. Its machine is here, or far ([`crate::far`]).
 use crate::clock::Simulation;
 use crate::far::{self, Answer, Kind, Question, READ_TAKES, WRITE_TAKES};
 use crate::files::attr::Access;

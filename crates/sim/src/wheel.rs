@@ -1,4 +1,4 @@
-//! How exact the kernel's timers are: `docs/ev3dev-sysfs.md`, 0.5.
+//! The precision of the kernel's timers: `docs/ev3dev-sysfs.md`, 0.5.
 //!
 //! A jiffy is 10 ms. The kernel keeps timers in a wheel of levels, each eight times as coarse as
 //! the one before, and rounds up: a timer fires in the jiffy after the one that was asked for, a

@@ -1,5 +1,5 @@
-//! How time passes for threads: turns, waits and periodic acts. On the virtual clock every number
-//! is exact. Nothing depends on how fast the tests run.
+//! The passage of time for threads: turns, waits and periodic acts. On the virtual clock every
+//! number is exact. Nothing depends on how fast the tests run.
 //!
 //! The clock looks at all threads of the process, so these tests run one after the other, and in a
 //! process of their own.

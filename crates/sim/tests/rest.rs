@@ -1,4 +1,4 @@
-//! How the clock sees that all threads rest. It looks at all threads of the process: this is one
+//! The clock sees that all threads rest. It looks at all threads of the process: this is one
 //! of its own, with one test.
 
 #[path = "../src/clock/threads.rs"]

@@ -1,4 +1,4 @@
-//! What is done when Prolog halts for good.
+//! Functions that Prolog calls when it halts for good.
 use std::ffi::{c_int, c_void};
 use std::sync::OnceLock;
 

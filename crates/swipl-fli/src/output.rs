@@ -1,4 +1,4 @@
-//! What is written to Prolog's standard output, seen on its way.
+//! Texts on their way to Prolog's standard output.
 //!
 //! A stream has a table of the functions that read and write. The one here is a copy with another
 //! function that writes: it calls the former, and then shows what was written. All else of the

@@ -1,4 +1,4 @@
-//! What is done before a predicate is called.
+//! The steps before a predicate is called.
 //!
 //! *Nondeterministic predicates before SWI-Prolog 8.1.30.* There a predicate that throws, or fails,
 //! when it is called for another solution is called once more, to give up the context that it has

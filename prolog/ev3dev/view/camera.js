@@ -1,4 +1,4 @@
-// Which part of the world is on the canvas. Centimeters, y up.
+// The part of the world that is on the canvas. Centimeters, y up.
 
 import { $, nice, text } from './dom.js';
 

@@ -1,4 +1,4 @@
-// What happened: commands with their causes, rules, what the program prints,
+// The log: commands with their causes, rules, what the program prints,
 // marks, warnings, goals; and a line for goals.
 
 import { $, clock, download, el, pressed, text, toggle } from './dom.js';

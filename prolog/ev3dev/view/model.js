@@ -1,4 +1,4 @@
-// What the page knows: the latest frame, what is kept between frames, and
+// The page's knowledge: the latest frame, what is kept between frames, and
 // the samples since the simulation began.
 
 /** What each frame has, or adds to what was there. All other keys are kept between frames. */

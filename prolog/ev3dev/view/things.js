@@ -1,4 +1,4 @@
-// What there is in a world: how each kind of thing looks, begins, moves, is taken by its handles,
+// The things of a world: how each kind of thing looks, begins, moves, is taken by its handles,
 // what can be typed of it, and its fact. The page knows a kind of thing in this file alone.
 // Things are items as in docs/view-protocol.md; the start, and the world around everything,
 // count as things here.

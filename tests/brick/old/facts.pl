@@ -9,7 +9,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 
-/** <module> What SWI-Prolog 7.2.3 has
+/** <module> The predicates, options and flags of SWI-Prolog 7.2.3
 
 The facts are terms `old(Where, Whats).` of two files. Version 7.2.3 itself
 lists those of swipl-7.2.3.txt, by list.pl. Those of swipl-7.2.3-arguments.txt

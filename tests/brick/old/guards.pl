@@ -6,7 +6,7 @@
 :- use_module(scope, [elsewhere/2, newer/2]).
 :- use_module(terms, [indicator/2]).
 
-/** <module> How SWI-Prolog 7.2.3 answers tests of its version
+/** <module> The answers of SWI-Prolog 7.2.3 to tests of its version
 
 Such as `current_prolog_flag(version, V), V >= 70508`, current_predicate/1 or
 exists_source/1.

@@ -11,7 +11,7 @@
               ]).
 :- use_module(library(lists), [member/2]).
 
-/** <module> What a file may use: of SWI-Prolog 7.2.3, and of its own
+/** <module> Predicates that a file may use: of SWI-Prolog 7.2.3, and of its own
 */
 
 :- dynamic

@@ -11,7 +11,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(occurs), [sub_term/2]).
 
-/** <module> What a Prolog file uses that SWI-Prolog 7.2.3 lacks
+/** <module> Uses in a Prolog file of what SWI-Prolog 7.2.3 lacks
 
 A file is read, not run. What 7.2.3 would not run is passed over. So newer
 things may be used behind a test of the version, as in

@@ -1,4 +1,4 @@
-//! Whether the gyro follows the wheels.
+//! A test whether the gyro follows the wheels.
 //!
 //! A gyro that is mounted upside down counts the other way, and so does one whose robot has its
 //! left and right motor swapped. Steering by it turns the robot farther from its course with each

@@ -1,4 +1,4 @@
-//! Where the robot was by its odometry, over time.
+//! The poses of the robot by its odometry, over time.
 //!
 //! Somebody who looks now and then sees the whole way. Memory stays bounded: on long runs the
 //! points are farther apart.

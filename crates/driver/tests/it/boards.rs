@@ -1,4 +1,4 @@
-//! What is built into the boards: lights, batteries, ports.
+//! Parts of the boards: lights, batteries, ports.
 use crate::files::PlainTree;
 use ev3_driver::brick::light::{self, Color};
 use ev3_driver::brick::{battery, port as lego_port};

@@ -1,4 +1,4 @@
-//! What the journal has of commands and courses.
+//! Commands and courses in the journal.
 use crate::brick::{Brick, ms};
 use ev3_driver::drive::odometry::Wheels;
 use ev3_driver::drive::steering::Leg;

@@ -1,4 +1,4 @@
-//! What holds for every text and every number.
+//! Laws that hold for every text and every number.
 use crate::brick::Brick;
 use ev3_driver::motor::Speed;
 use ev3_driver::value::{first_line, integer};

@@ -1,4 +1,4 @@
-//! What happens periodically in simulated time.
+//! Acts that happen periodically in simulated time.
 use crate::machine::Machine;
 use crate::shared::Shared;
 use ev3_os::locked;

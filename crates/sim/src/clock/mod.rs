@@ -1,4 +1,4 @@
-//! How time passes for a machine that several threads use.
+//! The passage of time for a machine that several threads use.
 //!
 //! With a *wall clock* a thread steps the machine every 2 ms, by the wall time that has passed
 //! times a factor. With the *virtual clock* time stands still while the program computes. It

@@ -1,4 +1,4 @@
-//! How fast simulated time may pass by the wall clock, for somebody who watches.
+//! The pace of simulated time by the wall clock, for somebody who watches.
 //!
 //! A virtual clock is held back between its steps, a wall clock gets another factor. Both can be
 //! paused. What a program does, and what it sees, is the same at any pace.

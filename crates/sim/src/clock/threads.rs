@@ -1,4 +1,4 @@
-//! What the kernel says of this process's threads: which run, and which are asleep.
+//! The kernel's report on this process's threads: which run, and which are asleep.
 //!
 //! A thread that can run is not asleep, also while other programs have the processors. Nothing
 //! here depends on how much wall time passes.

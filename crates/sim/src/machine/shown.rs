@@ -1,4 +1,4 @@
-//! How everything is, for those who look on.
+//! The state of everything, for those who look on.
 //!
 //! Nothing here changes the machine: no file is read, no time passes, and nothing is noted in the
 //! trace. So a run is the same whether somebody looks or not.

@@ -1,4 +1,4 @@
-//! How time passes: ticks of 2 ms, each the same however a caller slices his steps.
+//! The passage of time: ticks of 2 ms, each the same however a caller slices his steps.
 use crate::brick::output::{Bridge, Output};
 use crate::brick::port::Port;
 use crate::machine::Machine;

@@ -1,4 +1,4 @@
-//! What the driver does by itself: every 2 ms, and at its timers.
+//! The driver's own work: every 2 ms, and at its timers.
 use super::{Drive, NOTIFY_JIFFIES, STALL_TICKS, Tacho};
 use crate::ticks::JIFFY_TICKS;
 use crate::wheel::{Timer, jiffy};

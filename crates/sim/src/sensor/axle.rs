@@ -1,4 +1,4 @@
-//! What an angle sensor counts.
+//! The counts of an angle sensor.
 
 /// An axle that an angle sensor sits on, in degrees and degrees per second.
 #[derive(Clone, Copy, Debug, Default)]

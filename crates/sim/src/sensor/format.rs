@@ -1,4 +1,4 @@
-//! How values lie in `bin_data`, and how the class makes `value<N>` of them:
+//! The values in `bin_data`, and the `value<N>` that the class makes of them:
 //! `docs/ev3dev-sysfs.md`, 5.1.
 
 /// A measurement of a sensor in whole numbers: as the files show them, or the raw data.

@@ -1,5 +1,5 @@
-//! What stands and lies in a world, as plain data. All that the simulator knows about a kind of
-//! thing is in this file: its form as a fact, its variant, what is possible, and its shape.
+//! The things that stand and lie in a world, as plain data. All that the simulator knows about a
+//! kind of thing is in this file: its form as a fact, its variant, what is possible, and its shape.
 
 use ev3_motion::{OUT_OF_RANGE, Point, Pose, is_in_range};
 use std::fmt;

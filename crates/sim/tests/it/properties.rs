@@ -1,4 +1,4 @@
-//! What holds for every program, every world and every slicing of time.
+//! Laws that hold for every program, every world and every slicing of time.
 use crate::desk::{A, B, C, Desk, furnished};
 use crate::robots::default_robot;
 use ev3_sim::{Bounds, Hull, Item, Machine, Options, Port, Pose, RobotSpec, WorldSpec};

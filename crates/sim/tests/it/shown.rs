@@ -1,4 +1,4 @@
-//! What is shown of the machine to those who look on.
+//! The state of the machine that those who look on see.
 use crate::desk::furnished;
 use crate::robots::default_robot;
 use ev3_sim::{Item, Machine, Options, Pose, Sample, Shown, Sight, WorldSpec};

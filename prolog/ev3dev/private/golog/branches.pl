@@ -20,7 +20,7 @@
 :- use_module(values, [known_or_declared/3, value/5]).
 :- use_module('../errors/errors', [throw_error/3]).
 
-/** <module> What will be sensed
+/** <module> Branches for what will be sensed
 
 A conditional plan is made before its actions have sensed anything. After
 a sensing action the value of its fluent is '$sensed'. A condition that

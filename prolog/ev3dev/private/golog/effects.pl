@@ -15,7 +15,7 @@
 :- use_module(context, [context_module/2]).
 :- use_module(theory, [is_fluent/2, is_kind/3, is_sensing_action/2]).
 
-/** <module> What an action changes
+/** <module> The effects of an action
 
 An effect is set(Fluent, Value), or open(Fluent, Value, Condition) if neither
 the condition nor the declaration of the fluent enumerates its variables.

@@ -1,6 +1,6 @@
 :- module(ev3dev_golog_messages, []).
 
-/** <module> What library(ev3dev/golog) prints
+/** <module> The messages of library(ev3dev/golog)
 */
 
 :- multifile prolog:message//1.

@@ -12,7 +12,7 @@
 :- use_module(values, [value/5]).
 :- use_module('../errors/errors', [throw_error/3]).
 
-/** <module> What an action changes in a domain with possible values
+/** <module> The effects of an action in a domain with possible values
 */
 
 %!  effects_known(+Entry, +Situation, +Context, +Module, -Effects) is det.

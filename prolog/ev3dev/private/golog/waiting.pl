@@ -11,7 +11,7 @@
           ]).
 :- use_module(queue, [queue_wait/3]).
 
-/** <module> How library(ev3dev/golog) waits
+/** <module> The waits of library(ev3dev/golog)
 
 The only place where an agent waits. Robot is `robot` if the domain is about
 the robot, else `none`; then the library of the robot is not even loaded.

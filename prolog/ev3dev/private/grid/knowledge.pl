@@ -15,7 +15,7 @@
 :- use_module(map, [must_be_cell/1]).
 :- use_module('../native/native', [now_/1]).
 
-/** <module> What a robot knows of its grid
+/** <module> A robot's knowledge of its grid
 
 Which cells it found obstructed, and which it found free, and when. What it
 found may fade: an obstacle that moves about is forgotten after some time.

@@ -68,7 +68,7 @@ eight. A diagonal move also needs the two cells beside its way.
 %     - move_cost(+Cost)
 %     - diagonal_cost(+Cost)
 %     - turn_cost(+Cost)
-%       What a move costs, straight or diagonal, and a turn to the next
+%       The costs of a move, straight or diagonal, and a turn to the next
 %       direction: positive integers. By default 20, 28, and 10 or, with eight
 %       neighbors, 5: tenths of a second, about, for cells of 20 cm.
 %

@@ -47,12 +47,12 @@ Which grid it is on, and where on it the robot is.
 %   and
 %
 %     - start(+Cell, +Direction)
-%       Where the robot is, by default as drawn in `rows`, or in [0,0] with
+%       The robot's cell, by default as drawn in `rows`, or in [0,0] with
 %       direction [0,1].
 %     - cell_cm(+Cm)
 %       How wide a cell is, by default 20.
 %     - origin(+X, +Y)
-%       Where the middle of the cell [0,0] is for pose/3, by default 0, 0.
+%       The middle of the cell [0,0] for pose/3, by default 0, 0.
 %     - eye(+Cm)
 %       How far the ultrasonic sensor is ahead of the middle of the axle, by
 %       default 7.

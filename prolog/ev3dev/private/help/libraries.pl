@@ -5,7 +5,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module('../basics/small_lists', [append_lists/3, one_of/2]).
 
-/** <module> Which library has a predicate
+/** <module> The libraries of predicates
 
 For help/1, apropos/1, and messages about predicates of libraries that are not
 loaded. Nothing loads this file before one is needed. At the first question it

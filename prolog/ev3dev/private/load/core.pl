@@ -1,6 +1,6 @@
 :- module(ev3dev_core, []).
 
-/** <module> What library(ev3dev) offers
+/** <module> The predicates of library(ev3dev)
 */
 
 :- set_prolog_flag(generate_debug_info, false).

@@ -15,7 +15,7 @@
     within_seconds(+, 0),
     clock_changes(0).
 
-/** <module> How long a goal may take
+/** <module> Limits of the time that a goal may take
 
 The end of for_seconds/2 is a plan, which is made again whenever another clock
 is in use. So it counts on also in a simulation that Goal starts itself.
