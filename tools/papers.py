@@ -11,6 +11,8 @@ Of what stands in back quotes there
     a name, also one of a goal or of a path as `Device::number`, is in the code. In a step of a
     walk, a numbered item of walks.md, it is in one of the files that the step names.
 
+A walk says how many files it names, and how many returns, (up).
+
 What has a `<` is for the reader to fill in. Lists that repeat what files say are compared
 with these files, `compared` below.
 """
@@ -107,6 +109,20 @@ def wrong(text, house, make, walks=True):
                     yield line, quoted
 
 
+def walks(text):
+    """What each walk says of itself, and what it should say."""
+    said, true = set(), set()
+    for title, walk in re.findall(r"^## (.*)\n((?:(?!## ).*\n)*)", text, flags=re.M):
+        files = []
+        for word in re.findall(r"`([^`]+)`", walk):
+            if CODE.search(word) and not any(f"/{file}".endswith(f"/{word}") for file in files):
+                files.append(word)
+        said |= {f"{title}: {line}" for line in re.findall(r"^\d+ files, \d+ returns?$", walk, flags=re.M)}
+        count = walk.count("(up)")
+        true.add(f"{title}: {len(files)} files, {count} return{'' if count == 1 else 's'}")
+    return said, true
+
+
 def makefile(text):
     """What `make` has, what .PHONY says, and what has a comment above it."""
     targets = set(re.findall(r"^([a-z][\w-]*):(?!=)", text, flags=re.M))
@@ -172,6 +188,7 @@ def compared(files, papers):
     yield "docs/teaching.md", "exercises", set(re.findall(r"`course/([\w-]+)`", papers["docs/teaching.md"])), exercises
     tests = " ".join(text for path, text in files.items() if path.startswith("tests/"))
     yield "tests", "examples", None, (stems("examples/", files), set(re.findall(r"\w+", tests)))
+    yield "docs/decisions/walks.md", "the walks", *walks(papers["docs/decisions/walks.md"])
     everything = " ".join(papers[path] for path in papers if path.endswith(".md") and path != "CHANGELOG.md")
     commands = set(re.findall(r"^command\((\w+),", files["prolog/ev3dev/private/app/command_line.pl"], flags=re.M))
     yield "README.md and docs", "commands of swipl ev3dev", set(
@@ -252,6 +269,9 @@ def self_test():
     expected = ["a: b: 3 is missing", "a: b: there is no 1", "c: d: 1 is missing", "e: f: nothing was found"]
     if found != expected:
         sys.exit(f"papers.py: found {found}, not {expected}")
+    if walks("# W\n## a\n\n2 files, 1 return\n\n1. `src/a.rs` `b.pl`\n2. `a.rs` (up)\n## b\n1. `c.js`\n") != (
+            {"a: 2 files, 1 return"}, {"a: 2 files, 1 return", "b: 1 files, 0 returns"}):
+        sys.exit("papers.py: walks are miscounted")
     if makefile("# x\na: b\nc:\n.PHONY: a \\\n c\n") != ({"a", "c"}, {"a", "c"}, {"a"}):
         sys.exit("papers.py: the Makefile is misread")
 
