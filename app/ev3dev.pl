@@ -29,7 +29,7 @@
    ).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/private/app/command_line)).
-:- use_module(library(ev3dev/private/app/last_call)).
+:- use_module(library(ev3dev/private/explain/last_goal)).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
@@ -128,7 +128,8 @@ call_command(run, [File], Options) :-
     ),
     start_world_if_any(Clock, Options),
     start_view_if_any(Options),
-    load_noting(user:Path),
+    bound_stack,
+    load_files(user:Path, []),
     goal_of(File, Options, Goal),
     setup_call_cleanup(
         true,
@@ -294,6 +295,16 @@ run_goal(Goal, Options) :-
 run_goal(Goal, _) :-
     call(user:Goal),
     !.
+
+%   An endless recursion ends after seconds; a brick has less room anyway.
+
+bound_stack :-
+    Most is 256*1024*1024,
+    (   current_prolog_flag(stack_limit, Limit),
+        Limit > Most
+    ->  set_prolog_flag(stack_limit, Most)
+    ;   true
+    ).
 
 summary :-
     (   sim_time(Time)

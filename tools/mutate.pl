@@ -223,7 +223,7 @@ tests([brick, facts, world_name],         [sim, bricks, view, planners]).
 tests([bricks],                           [bricks, worker]).
 tests([causes],                           [journal, events]).
 tests([random_seed, turn_order],          [sim, events, grid]).
-tests([command_line, scripts, last_call], [app, halt]).
+tests([command_line, scripts, last_goal], [app, halt]).
 tests([compiled, units],                  [compile]).
 tests([conditions, small_lists],          [sensor_wait, events, rules]).
 tests([directory],                        [files, sim_fenced, sound, app]).

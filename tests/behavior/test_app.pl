@@ -111,7 +111,7 @@ ends([ "start :-",
        "    print(N)."
      ], "",
      [ "highest speed is 100 %",
-       "ERROR: FILE:6: start failed; its last goal was motor_run/2, in step/1" ]).
+       "ERROR: FILE:6: start failed; its last goal was motor_run(outB,500), in step/1" ]).
 % No clause of step/1 is for 4. What cleans up is not to blame.
 ends([ "start :-",
        "    setup_call_cleanup(",
@@ -124,13 +124,13 @@ ends([ "start :-",
        "    stop_all_motors,",
        "    fail."
      ], "--for 3",
-     [ "ERROR: FILE:8: start failed; its last goal was step/1, in step/1" ]).
+     [ "ERROR: FILE:8: start failed; its last goal was step(4), in step/1" ]).
 ends([ "start(_) :- true." ], "--goal start(X),fail",
      [ "start(_", "failed" ]).
 ends([ ":- use_module(library(lists)).",
        "start :-",
        "    max_list([], _)." ], "",
-     [ "ERROR: FILE:4: start failed; its last goal was max_list/2, in start/0" ]).
+     [ "ERROR: FILE:4: start failed; its last goal was max_list([],_), in start/0" ]).
 ends([ "start :-",
        "    throw(oops(1))." ], "",
      [ "ERROR: FILE:3: oops(1) was thrown" ]).

@@ -84,6 +84,9 @@ throw_error(Formal, Called0, Message) :-
 %   Error is Error0, and its message also says Where it occurred: a text as
 %   `in the guard of rule avoid`.
 
+error_within(error(resource_error(What), Context), _,
+             error(resource_error(What), Context)) :-
+    !.                                  % it says what filled the stack
 error_within(error(Formal, Context0), Where,
              error(Formal, context(Called, Text))) :-
     (   nonvar(Context0),

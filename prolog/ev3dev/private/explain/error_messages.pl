@@ -1,12 +1,14 @@
 :- module(ev3dev_error_messages,
-          [ in_words//1                 % +Message
+          [ in_words//1,                % +Message
+            call_line/3,                % +Clause, +PC, -Line
+            short/2                     % +Path, -File
           ]).
 :- use_module('../errors/errors', [named_called/2]).
-:- use_module('../errors/error_texts', [is_word/1, nth/2]).
+:- use_module('../basics/small_lists', [one_of/2]).
+:- use_module('../errors/error_texts', [is_word/1, nth/2, shown/2]).
 :- use_module('../errors/frames', [in_pack/3, is_of_system/1, is_public/2]).
 :- use_module(unknown_procedures,
               [form_of/2, known_mistake/1, unqualified/2]).
-:- use_module('../native/native', [running_/1]).
 
 /** <module> Error messages
 
@@ -156,51 +158,31 @@ is_ours(Called) :-
     integer(Arity),
     is_public(_, Called).
 
-% ---------------- MOTORS THAT RUN
+% ---------------- THE STACK IS FULL
 
-%   After an abort or an error at the toplevel motors run on that the program
-%   has started and has not stopped: that is said then. A page, another thread
-%   or a program that ends says nothing.
+%   Since 7.7.14 the context of such an error says what filled the stack.
 
-:- multifile user:message_hook/3.
-:- dynamic user:message_hook/3.
+prolog:message(error(resource_error(_), Overflow)) -->
+    { nonvar(Overflow),
+      is_dict(Overflow, stack_overflow),
+      fills(Overflow, Call),
+      shown(Call, Shown),
+      functor(Call, Name, Arity),
+      current_prolog_flag(stack_limit, Limit),
+      Megabytes is ceiling(Limit/1048576)
+    },
+    [ '~q calls itself without end: the stack of ~d MB is full. '-
+      [Name/Arity, Megabytes],
+      'Its last call was ~w'-[Shown] ].
 
-user:message_hook(Message, Kind, Lines) :-
-    ev3dev_error_messages:ends_query(Message, Kind),
-    ev3dev_error_messages:running(Ports),
-    (   Kind == informational,
-        current_prolog_flag(verbose, silent)
-    ->  true
-    ;   print_message_lines(user_error, kind(Kind), Lines)
-    ),
-    print_message(warning, ev3dev(still_run(Ports))).
-
-ends_query('$aborted', _).
-ends_query(unwind(abort), _).
-ends_query(unhandled_exception(_), _).
-ends_query(error(_, _), error).
-
-running(Ports) :-
-    current_prolog_flag(break_level, _),
-    thread_self(main),
-    running_(Ports),
-    Ports \== [].
-
-prolog:message(ev3dev(still_run([Port]))) -->
-    !,
-    [ '~w is still running. Type `stop.`'-[Port] ].
-prolog:message(ev3dev(still_run(Ports))) -->
-    { append_last(Ports, Listed) },
-    [ '~w are still running. Type `stop.`'-[Listed] ].
-
-%   `outA, outB and outC`
-
-append_last([First, Last], Listed) :-
-    !,
-    atomic_list_concat([First, ' and ', Last], Listed).
-append_last([Port|Ports], Listed) :-
-    append_last(Ports, Listed0),
-    atomic_list_concat([Port, ', ', Listed0], Listed).
+fills(Overflow, Call) :-
+    one_of([cycle, non_terminating, stack], Key),
+    get_dict(Key, Overflow, Frames),
+    ( Key == stack -> get_dict(depth, Overflow, Depth), Depth > 1000 ; true ),
+    one_of(Frames, frame(_, Module:Call, _)),
+    \+ in_pack(Module:Call, _, _),
+    \+ is_of_system(Module:Call),
+    !.
 
 % ---------------- THE EXCEPTION
 
@@ -325,16 +307,19 @@ walk(Frame, PC, Deep, Most, Passed, Places) :-
 place(Frame, PC, Predicate, place(Shown, File, Line)) :-
     prolog_frame_attribute(Frame, clause, Clause),
     clause_property(Clause, file(Path)),
-    line(Clause, PC, Line),
+    call_line(Clause, PC, Line),
     (   Predicate = user:Shown
     ->  true
     ;   Shown = Predicate
     ),
     short(Path, File).
 
-%   Of the call, if Prolog can say so; else of the clause.
+%!  call_line(+Clause, +PC, -Line) is semidet.
+%
+%   Line is that of the call after which Clause goes on at PC, if Prolog can
+%   say so; else of the clause.
 
-line(Clause, PC, Line) :-
+call_line(Clause, PC, Line) :-
     integer(PC),
     current_module(prolog_stack),
     Where = prolog_stack:prolog_stack_frame_property(
@@ -342,8 +327,12 @@ line(Clause, PC, Line) :-
                              location(_:Line)),
     catch(Where, error(_, _), fail),
     !.
-line(Clause, _, Line) :-
+call_line(Clause, _, Line) :-
     clause_property(Clause, line_count(Line)).
+
+%!  short(+Path, -File) is det.
+%
+%   File is Path, but relative to the working directory.
 
 short(Path, File) :-
     working_directory(Directory, Directory),

@@ -7,6 +7,7 @@
 :- use_module(scripts, []).
 :- use_module('../help/help', []).
 :- use_module('../explain/error_messages', []).
+:- use_module('../explain/queries', []).
 :- reexport('../../driver').
 :- reexport('../../device_table').
 :- reexport('../../motors').

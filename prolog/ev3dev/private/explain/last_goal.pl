@@ -1,0 +1,402 @@
+:- module(ev3dev_last_goal,
+          [ watch_goals/1,              % +Query
+            watched/4,                  % ?Clause, ?PC, -Called, -Tail
+            outcome/2,                  % :Goal, -Outcome
+            report/2,                   % +Outcome, +Goal
+            last_goal/3,                % -Goal, -In, -Place
+            used_robot/0
+          ]).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module(error_messages, [call_line/3, in_words//1, short/2]).
+:- use_module(queries, [program/1]).
+:- use_module('../basics/small_lists', [one_of/2]).
+:- use_module('../errors/error_texts', [shown/2]).
+:- use_module('../errors/frames', [in_pack/3]).
+
+/** <module> The goal of a program that was called last
+
+A goal that has failed leaves no trace behind, and neither does the frame of a
+clause that has made its last call: an error in that call knows the clause no
+more. So watch_goals/1 sets a break point at each goal of the program's own
+clauses, where Prolog calls a hook and goes on. The hook notes the goal with
+its arguments. What was noted last is the goal that threw, or that a program
+called last before it failed.
+
+Neither listing/1 nor clause/2 sees these break points, and last calls remain
+last calls. A note takes a microsecond on a PC. The debugger knows, too, but it
+keeps the frames of all last calls, for which a program that runs for hours has
+no room.
+
+Newer Prologs have no break point at a last call that reuses the arguments of
+its clause, its tail here. So the goal before it calls passing/2, which notes
+the tail when that goal has succeeded.
+
+The clauses of libraries are not watched, nor what threads call, nor what
+cleans up after a goal.
+*/
+
+:- meta_predicate outcome(0, -).
+
+:- dynamic
+    watched/4,
+    done/2.                             % File, when it was changed
+
+%!  watch_goals(+Query) is det.
+%
+%   Watch all programs that are loaded now; no goal of Query has been called.
+%   A debugger has its own break points, and while it traces, those here would
+%   be in its way.
+
+watch_goals(Query) :-
+    nb_setval(ev3dev_last_goal, []),
+    nb_setval(ev3dev_used_robot, false),
+    (   ( current_prolog_flag(debug, true) ; debugs(Query) ; in_use )
+    ->  forall(retract(watched(Clause, PC, _, _)),
+               break(Clause, PC, false)),
+        retractall(done(_, _))
+    ;   forall(( program_file(File, Time), \+ done(File, Time) ),
+               watch_file(File, Time))
+    ).
+
+debugs(Query) :-
+    compound(Query),
+    !,
+    Query =.. [Name|Arguments],
+    (   is_debugger(Name)
+    ->  true
+    ;   one_of(Arguments, Argument),
+        debugs(Argument)
+    ),
+    !.
+debugs(Query) :-
+    atom(Query),
+    is_debugger(Query).
+
+is_debugger(Name) :-
+    memberchk(Name, [trace, spy, debug, gtrace, gspy, gdebug, set_breakpoint]).
+
+in_use :-
+    predicate_property(prolog_breakpoints:known_breakpoint(_Clause, _, _, _),
+                       number_of_clauses(Count)),
+    Count > 0.
+
+program_file(File, Time) :-
+    program(File),
+    source_file_property(File, modified(Time)).
+
+watch_file(File, Time) :-
+    retractall(done(File, _)),
+    assertz(done(File, Time)),
+    findall(clause(Head, Clause), clause_in(File, Head, Clause), Clauses),
+    findall(Name/Arity,
+            ( one_of(Clauses, clause(Head, Clause)),
+              catch(clause(Head, Body, Clause), error(_, _), fail),
+              cleaner(Body, Goal),
+              functor(Goal, Name, Arity) ),
+            Cleaners),
+    forall(( one_of(Clauses, clause(_:Head, Clause)),
+             functor(Head, Name, Arity),
+             \+ memberchk(Name/Arity, Cleaners),
+             '$break_pc'(Clause, PC, _),
+             '$fetch_vm'(Clause, PC, _, Instruction) ),
+           watch(Instruction, Clause, PC)).
+
+clause_in(File, Module:Head, Clause) :-
+    source_file(Module:Head, File),
+    \+ in_pack(Module:x/0, _, _),
+    \+ predicate_property(Module:Head, dynamic),
+    nth_clause(Module:Head, _, Clause).
+
+cleaner(Term, Goal) :-
+    compound(Term),
+    Term =.. [Name|Arguments],
+    (   memberchk(Name, [call_cleanup, setup_call_cleanup])
+    ->  append_last(Arguments, Cleaner),
+        part(Cleaner, Goal)
+    ;   one_of(Arguments, Argument),
+        cleaner(Argument, Goal)
+    ).
+
+append_last([Last], Last) :- !.
+append_last([_|Terms], Last) :-
+    append_last(Terms, Last).
+
+part(Goal, _) :-
+    \+ callable(Goal),
+    !,
+    fail.
+part(_:Goal, Part) :-
+    !,
+    part(Goal, Part).
+part((Goal, Goals), Part) :-
+    !,
+    ( part(Goal, Part) ; part(Goals, Part) ).
+part(Goal, Goal).
+
+%   The other instructions are no goals.
+
+watch(Instruction, Clause, PC) :-
+    functor(Instruction, Operation, _),
+    (   tail_after(Clause, PC, Tail)
+    ->  true
+    ;   Tail = none
+    ),
+    (   memberchk(Operation, [i_enter, i_exit, i_exitfact, i_cut, i_true])
+    ->  (   Tail == none
+        ->  true
+        ;   set(Clause, PC, nothing, Tail)
+        )
+    ;   compound(Instruction),
+        arg(1, Instruction, Module:Name/Arity)
+    ->  functor(Head, Name, Arity),
+        set(Clause, PC, Module:Head, Tail)
+    ;   set(Clause, PC, none, Tail)
+    ).
+
+set(Clause, PC, Called, Tail) :-
+    (   break(Clause, PC, true)
+    ->  assertz(watched(Clause, PC, Called, Tail))
+    ;   true
+    ).
+
+break(Clause, PC, Set) :-
+    catch('$break_at'(Clause, PC, Set), error(_, _), fail),
+    !.
+break(_, _, false).
+
+%   What follows PC in Clause is its tail: tail(Moves, At, Called). Moves say of
+%   arguments, counted from 0, which variable of the frame they are, or which
+%   value; the others are at their places. At is where Called would be called
+%   without reuse.
+
+tail_after(Clause, PC, Tail) :-
+    '$fetch_vm'(Clause, PC, Next, Instruction),
+    \+ memberchk(Instruction, [i_exit, i_exitfact, i_depart(_)]),
+    goes_on(Clause, Next, Tail).
+
+goes_on(Clause, PC, Tail) :-
+    '$fetch_vm'(Clause, PC, Next, Instruction),
+    (   Instruction = l_nolco(_)
+    ->  Tail = tail(Moves, At, Called),
+        tail_moves(Clause, Next, Moves, At, Called)
+    ;   Instruction = c_jmp(By)
+    ->  Target is Next+By,
+        goes_on(Clause, Target, Tail)
+    ;   functor(Instruction, Name, _),
+        memberchk(Name, [c_cut, c_lcut, c_fastcut]),
+        goes_on(Clause, Next, Tail)
+    ).
+
+tail_moves(Clause, PC, Moves, At, Called) :-
+    '$fetch_vm'(Clause, PC, Next, Instruction),
+    (   move(Instruction, Move)
+    ->  Moves = [Move|Moves1],
+        tail_moves(Clause, Next, Moves1, At, Called)
+    ;   Moves = [],
+        depart(Clause, Next, At, Called)
+    ).
+
+move(l_var(To, From), To-frame(From)).
+move(l_smallint(To, Value), To-value(Value)).
+move(l_atom(To, Value), To-value(Value)).
+move(l_nil(To), To-value([])).
+move(l_void(To), To-value(_)).
+
+depart(Clause, PC, At, Called) :-
+    '$fetch_vm'(Clause, PC, Next, Instruction),
+    (   Instruction = i_depart(Called)
+    ->  At = PC
+    ;   depart(Clause, Next, At, Called)
+    ).
+
+%!  watched(?Clause, ?PC, -Called, -Tail) is nondet.
+%
+%   There is a break point at PC in Clause, where it calls a predicate with the
+%   head Called, or `none` if Prolog has an instruction for that goal, or
+%   `nothing` if there is no goal.
+
+:- multifile
+    prolog:break_hook/6,
+    prolog:break_hook/7,
+    noted/3.                            % Clause, PC, Goal
+:- dynamic
+    prolog:break_hook/6,
+    prolog:break_hook/7,
+    noted/3.
+
+prolog:break_hook(Clause, PC, Frame, _, Goal, Action) :-
+    ev3dev_last_goal:stopped(Clause, PC, Frame, Goal, Action).
+prolog:break_hook(Clause, PC, Frame, _, Goal, _, Action) :-
+    ev3dev_last_goal:stopped(Clause, PC, Frame, Goal, Action).
+
+%   If the stack is full, the program comes to know that.
+
+stopped(Clause, PC, Frame, Goal, Action) :-
+    watched(Clause, PC, Called, Tail),
+    !,
+    catch(take(Clause, PC, Called, Tail, Frame, Goal, Action),
+          error(resource_error(_), _), Action = continue).
+
+take(Clause, PC, Called, Tail, Frame, Goal0, Action) :-
+    (   Called == nothing
+    ->  true
+    ;   Goal0 = call(Goal),
+        take(Clause, PC, Called, Goal)
+    ),
+    (   Tail == none
+    ->  Action = continue
+    ;   tail_goal(Tail, Frame, At, Head, Last),
+        (   Called == nothing
+        ->  take(Clause, At, Head, Last),
+            Action = continue
+        ;   statistics(localused, Bytes),
+            Bytes > 1000000             % a deep recursion needs its room
+        ->  Action = continue
+        ;   clause_property(Clause, predicate(Module:_)),
+            Action = call(ev3dev_last_goal:passing(Module:Goal,
+                              take(Clause, At, Head, Last)))
+        )
+    ).
+
+:- meta_predicate passing(0, +).
+
+passing(Goal, Take) :-
+    call(Goal),
+    call(Take).
+
+tail_goal(tail(Moves, At, Module:Name/Arity), Frame, At, Module:Head, Last) :-
+    functor(Head, Name, Arity),
+    functor(Last, Name, Arity),
+    fill(0, Arity, Moves, Frame, Last).
+
+fill(Index, Arity, Moved, Frame, Last) :-
+    (   Index < Arity
+    ->  Index1 is Index+1,
+        (   memberchk(Index-Place, Moved)
+        ->  true
+        ;   Place = frame(Index)
+        ),
+        (   Place = frame(From)
+        ->  From1 is From+1,
+            prolog_frame_attribute(Frame, argument(From1), Value)
+        ;   Place = value(Value)
+        ),
+        arg(Index1, Last, Value),
+        fill(Index1, Arity, Moved, Frame, Last)
+    ;   true
+    ).
+
+%   To copy a large term would take long.
+
+take(Clause, PC, Called, Goal) :-
+    (   '$term_size'(Goal, 200, _),
+        term_attvars(Goal, [])
+    ->  nb_setval(ev3dev_last_goal, at(Clause, PC, Goal))
+    ;   functor(Goal, Name, Arity),
+        nb_setval(ev3dev_last_goal, at(Clause, PC, Name/Arity))
+    ),
+    (   Called \== none,
+        nb_getval(ev3dev_used_robot, false),
+        is_of_pack(Called)
+    ->  nb_setval(ev3dev_used_robot, true)
+    ;   true
+    ),
+    forall(noted(Clause, PC, Goal), true).
+
+is_of_pack(Module:Head) :-
+    (   in_pack(Module:Head, _, _)
+    ->  true
+    ;   predicate_property(Module:Head, imported_from(From)),
+        in_pack(From:Head, _, _)
+    ).
+
+%!  used_robot is semidet.
+%
+%   True if a goal that was watched is one of the pack.
+
+used_robot :-
+    nb_current(ev3dev_used_robot, true).
+
+%!  last_goal(-Goal, -In, -Place) is semidet.
+%
+%   Goal, a text, is the last one; it is in the predicate In, at Place, a text
+%   `File:Line: `.
+
+last_goal(Shown, In, Place) :-
+    nb_current(ev3dev_last_goal, at(Clause, PC, Goal0)),
+    clause_property(Clause, predicate(In0)),
+    ( In0 = user:In -> true ; In = In0 ),
+    clause_property(Clause, file(Path)),
+    ( Goal0 = _:Goal -> true ; Goal = Goal0 ),
+    shown(Goal, Shown),
+    '$break_pc'(Clause, PC, Next),
+    use_module(library(prolog_stack), []),
+    call_line(Clause, Next, Line),
+    short(Path, File),
+    format(atom(Place), '~w:~d: ', [File, Line]),
+    !.
+
+%!  outcome(:Goal, -Outcome) is det.
+%
+%   Call Goal once. Outcome is `true`, `false`, or thrown(Ball).
+
+outcome(Goal, Outcome) :-
+    watch_goals(Goal),
+    (   catch(Goal, Ball, true)
+    ->  (   var(Ball)
+        ->  Outcome = true
+        ;   Outcome = thrown(Ball)
+        )
+    ;   Outcome = false
+    ).
+
+%!  report(+Outcome, +Goal) is semidet.
+%
+%   Succeed if Outcome is `true`. Otherwise say where the program was, and
+%   fail. Goal is what failed. What ends the whole program is thrown again.
+
+report(true, _).
+report(false, Goal) :-
+    print_message(error, ev3dev(failed(Goal))),
+    fail.
+report(thrown(Ball), _) :-
+    (   ( Ball == '$aborted' ; Ball = unwind(_) )
+    ->  throw(Ball)
+    ;   print_message(error, ev3dev(thrown(Ball)))
+    ),
+    fail.
+
+:- multifile prolog:message//1.
+
+prolog:message(ev3dev(failed(Goal))) -->
+    { shown(Goal, Shown) },
+    (   { last_goal(Last, In, Place) }
+    ->  [ '~w~w failed; its last goal was ~w, in ~q'-
+          [Place, Shown, Last, In] ]
+    ;   [ '~w failed'-[Shown] ]
+    ).
+prolog:message(ev3dev(thrown(Ball))) -->
+    (   { nb_current(ev3dev_last_goal, at(_, _, Goal)),
+          last_goal(_, _, Place) }
+    ->  [ '~w'-[Place] ],
+        { blamed(Ball, Goal, Blamed) }
+    ;   { Blamed = Ball }
+    ),
+    (   { Blamed = error(_, _) }
+    ->  in_words(Blamed)
+    ;   [ '~p was thrown'-[Blamed] ]
+    ).
+
+%   A context with a text names what was called, and one of the stacks what
+%   fills them. Others may name what calls it.
+
+blamed(Ball, Goal0, Blamed) :-
+    (   Ball = error(Formal, Context),
+        \+ ( nonvar(Formal), Formal = resource_error(_) ),
+        \+ ( nonvar(Context), Context = context(_, Text), nonvar(Text) ),
+        ( Goal0 = _:Goal -> true ; Goal = Goal0 ),
+        ( Goal = Name/Arity, atom(Name) -> true
+        ; functor(Goal, Name, Arity) )
+    ->  Blamed = error(Formal, context(Name/Arity, _))
+    ;   Blamed = Ball
+    ).

@@ -1,0 +1,154 @@
+:- module(ev3dev_queries,
+          [ program/1                   % ?File
+          ]).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module('../basics/small_lists', [one_of/2]).
+:- use_module('../native/native', [running_/1]).
+
+/** <module> What is said around a query of the toplevel
+
+Before it begins: if a file has changed that defines what it calls. When it
+has failed: which goal of the program was the last one, if the program has
+used the robot. When it has failed, or ended by an error or an abort: which
+motors are still running. A page, another thread, or a program that ends says
+nothing.
+*/
+
+:- multifile
+    user:expand_query/4,
+    user:message_hook/3,
+    prolog:message//1.
+:- dynamic
+    user:expand_query/4,
+    user:message_hook/3,
+    query/1,                            % the goal that runs
+    said/2.                             % File, when it was changed
+:- volatile
+    query/1,
+    said/2.
+
+:- initialization(
+       asserta((user:expand_query(Query, _, _, _) :-
+                    catch(ev3dev_queries:begins(Query), error(_, _), fail),
+                    fail)),
+       now).
+
+begins(Query) :-
+    thread_self(main),
+    callable(Query),
+    retractall(query(_)),
+    assertz(query(Query)),
+    of_libraries,
+    once(program(_)),
+    use_module(library(ev3dev/private/explain/last_goal), []),
+    Watch = ev3dev_last_goal:watch_goals(Query),
+    call(Watch),
+    calls(Query, Goal),
+    predicate_property(user:Goal, file(File)),
+    program(File),
+    changed(File),
+    print_message(warning, ev3dev(changed(File))),
+    fail.
+begins(_).
+
+%   list_undefined/0, which make/0 calls, looks at all modules that are not of
+%   libraries, and knows nothing of a library that is loaded at its first use.
+
+of_libraries :-
+    forall(( current_module(Module),
+             sub_atom(Module, 0, _, _, ev3dev),
+             module_property(Module, class(user)) ),
+           set_module(Module:class(library))).
+
+%!  program(?File) is nondet.
+%
+%   True if File is loaded, and is neither Prolog's nor the pack's.
+
+program(File) :-
+    source_file(File),
+    \+ ( (   current_prolog_flag(home, Folder)
+         ;   module_property(ev3dev, file(Ev3dev)),
+             file_directory_name(Ev3dev, Folder)
+         ),
+         sub_atom(File, 0, _, _, Folder)
+       ).
+
+calls(Query, Goal) :-
+    callable(Query),
+    (   Query = (Goal1, Goal2)
+    ->  ( calls(Goal1, Goal) ; calls(Goal2, Goal) )
+    ;   Goal = Query
+    ).
+
+%   Each change is reported once.
+
+changed(File) :-
+    source_file_property(File, modified(Loaded)),
+    catch(time_file(File, Now), error(_, _), fail),
+    Now > Loaded,
+    \+ said(File, Now),
+    assertz(said(File, Now)).
+
+prolog:message(ev3dev(changed(Path))) -->
+    { file_base_name(Path, File) },
+    [ '~w has changed since it was loaded. Type `make.` to load it again'-
+      [File] ].
+
+% ---------------- WHEN IT HAS ENDED
+
+user:message_hook(Message, Kind, Lines) :-
+    ev3dev_queries:ended(Message, Kind, Lines).
+
+%   A query with an answer does not fail if there are no more answers.
+
+ended(query(Answer), query, _) :-
+    functor(Answer, Name, _),
+    memberchk(Name, [yes, more]),
+    retractall(query(_)),
+    fail.
+ended(Message, Kind, Lines) :-
+    ends_query(Message, Kind),
+    current_prolog_flag(break_level, _),
+    thread_self(main),
+    findall(Remark, remark(Message, Remark), Remarks),
+    Remarks \== [],
+    (   Kind == informational,
+        current_prolog_flag(verbose, silent)
+    ->  true
+    ;   Kind == query
+    ->  print_message_lines(user_output, kind(Kind), Lines),
+        flush_output(user_output)
+    ;   print_message_lines(user_error, kind(Kind), Lines)
+    ),
+    forall(one_of(Remarks, Remark), print_message(warning, Remark)).
+
+ends_query(query(no), query).
+ends_query('$aborted', _).
+ends_query(unwind(abort), _).
+ends_query(unhandled_exception(_), _).
+ends_query(error(_, _), error).
+
+remark(query(no), ev3dev(failed(Query))) :-
+    query(Query),
+    current_module(ev3dev_last_goal),
+    Used = ev3dev_last_goal:used_robot,
+    call(Used).
+remark(_, ev3dev(still_run(Ports))) :-
+    running_(Ports),
+    Ports \== [].
+
+prolog:message(ev3dev(still_run([Port]))) -->
+    !,
+    [ '~w is still running. Type `stop.`'-[Port] ].
+prolog:message(ev3dev(still_run(Ports))) -->
+    { append_last(Ports, Listed) },
+    [ '~w are still running. Type `stop.`'-[Listed] ].
+
+%   `outA, outB and outC`
+
+append_last([First, Last], Listed) :-
+    !,
+    atomic_list_concat([First, ' and ', Last], Listed).
+append_last([Port|Ports], Listed) :-
+    append_last(Ports, Listed0),
+    atomic_list_concat([Port, ', ', Listed0], Listed).
