@@ -19,7 +19,8 @@
 :- use_module(driver, [dc_motor/1]).
 :- use_module(private/run/halt, []).
 :- use_module(motors, []).
-:- use_module(private/checks/arguments, [motor_options/5, word/2]).
+:- use_module(private/checks/arguments, [word/2]).
+:- use_module(private/checks/motor_arguments, [motor_options/5]).
 :- use_module(private/devices/attributes,
               [ attribute/4, attribute_words/4, class_polarity/3,
                 class_settings/3

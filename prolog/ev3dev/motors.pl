@@ -31,10 +31,10 @@
               [ command/2, max_speed/2, motor_attribute/3 ]).
 :- use_module(private/run/halt, []).
 :- use_module(private/checks/arguments,
-              [ motor_moves/2, motor_options/5, motor_runs/2,
-                must_be_options/3, number_option/4, option/2, option/3,
-                speed_value/2, stop_action/3, timeout_option/2, word/2
-              ]).
+              [ must_be_options/3, number_option/4, option/2, option/3,
+                speed_value/2, timeout_option/2, word/2 ]).
+:- use_module(private/checks/motor_arguments,
+              [motor_moves/2, motor_options/5, motor_runs/2, stop_action/3]).
 :- use_module(private/run/waits, [waited/1]).
 :- use_module(private/native/native,
               [ motor_reset_/1, motor_run_/2, motor_run_direct_/3,
