@@ -81,6 +81,7 @@ must_be_words(Wanted, Term, Frame, Text) :-
     ).
 
 kind(atom, 'an atom or a string') :- !.
+kind(text, 'an atom or a string') :- !.
 kind(callable, 'a goal') :- !.
 kind(bool, 'true or false') :- !.
 kind(list, 'a list') :- !.
