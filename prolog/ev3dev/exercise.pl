@@ -10,6 +10,7 @@
             duration/1,                 % -Seconds
             ended_near/2,               % +Place, -Distance
             path_length/1,              % -Length
+            path_turns/1,               % -Degrees
             time_to/2,                  % +Place, -Seconds
             time_to/3,                  % +Place, +Radius, -Seconds
             cells_visited/2,            % +Size, -Count
@@ -265,6 +266,23 @@ way_length([X-Y|Places], Length0, Length) :-
     ->  Length1 is Length0 + sqrt((X1-X)**2 + (Y1-Y)**2),
         way_length(Places, Length1, Length)
     ;   Length = Length0
+    ).
+
+%!  path_turns(-Degrees) is semidet.
+%
+%   How far the robot turned on its path, to the left and to the right
+%   together, in degrees. A robot that shakes turns much more than its path.
+
+path_turns(Degrees) :-
+    findall(Heading, run_pose(_, _, _, Heading), Headings),
+    all_turns(Headings, 0, Degrees).
+
+all_turns([Heading|Headings], Degrees0, Degrees) :-
+    (   Headings = [Next|_]
+    ->  Turn is abs(Next-Heading),
+        Degrees1 is Degrees0 + min(Turn, abs(360-Turn)),
+        all_turns(Headings, Degrees1, Degrees)
+    ;   Degrees = Degrees0
     ).
 
 %!  time_to(+Place, -Seconds) is semidet.

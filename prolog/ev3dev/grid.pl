@@ -265,8 +265,8 @@ grid_message(failed(_:Planner, Start, End)) -->
       Call0 =.. List,
       shown(Call0, Call),
       obstructed_cells(Cells) },
-    [ 'the planner found no plan.'-[], nl,
-      '~w failed, with obstacles in ~w.'-[Call, Cells] ].
+    [ 'the planner found no plan:'-[], nl,
+      '  ~w failed, with obstacles in ~w.'-[Call, Cells] ].
 grid_message(no_sensor) -->
     [ 'no ultrasonic sensor is connected.' ].
 grid_message(no_robot) -->

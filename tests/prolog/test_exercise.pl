@@ -105,6 +105,13 @@ test(commands, Points == 2) :-
               [ ":- use_module(library(ev3dev)).",
                 "start :- motor_run(outB, 100), motor_run(outC, 100), wait(1),",
                 "    col_color(in3, _), motor_stop(outB)." ], mark(mine, Points, _, _, _, _)).
+%   By a quarter to the right, and back over north.
+test(how_far_it_turned, true(abs(Points-1.9) < 0.1)) :-
+    marked_by([ "exercise(turns, [seeds(1)]).", "world(_, [start(50, 50, 40)]).",
+                "score(partial(10), turns, Share) :- path_turns(Degrees), Share is Degrees/1000." ],
+              [ ":- use_module(library(ev3dev)).",
+                "start :- set_robot(5.6, 10.6, outB, outC), turn(30, 90), turn(30, -100)." ],
+              mark(mine, Points, _, _, _, _)).
 %   11 of 21 marks.
 test(half_a_lap, Points == 5.24) :-
     marked_by([ "exercise(lap, [seeds(1)]).",
@@ -280,34 +287,6 @@ alike(Lines, Others, Index) :-
 occurrences(Part, Text, Count) :-
     findall(x, sub_string(Text, _, _, _, Part), All),
     length(All, Count).
-
-%   The solutions of the course earn all points; with few cases in one run each.
-test(the_course, [forall(course(Exercise)), true]) :-
-    (   all_cases
-    ->  Options = []
-    ;   Options = [seeds(1)]
-    ),
-    with_output_to(string(Text), ( quietly(exercise_check(Exercise, Options)) -> All = true
-                                 ; All = false )),
-    assertion(All-Text == true-Text).
-
-course(File) :-
-    source_file(course(_), This),
-    file_directory_name(This, Tests),
-    atom_concat(Tests, '/../../course/*/exercise.pl', Pattern),
-    expand_file_name(Pattern, Files),
-    member(File, Files).
-
-%   A skeleton is a program without a mistake that earns less.
-test(the_skeletons, Unequal == []) :-
-    findall(Name,
-            ( course(Exercise),
-              file_directory_name(Exercise, Folder),
-              file_base_name(Folder, Name),
-              member(Kind, [skeleton, solution]),
-              atomic_list_concat([Folder, /, Kind, '.pl'], File),
-              \+ exists_file(File) ),
-            Unequal).
 
 test(try, true(sub_string(Text, _, _, _, "Together: 10 of 10 points, in 3 runs."))) :-
     with_folder(( folder(Folder), atom_concat(Folder, '/exercise', Exercise),
