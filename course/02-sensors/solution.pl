@@ -1,5 +1,5 @@
 % A vehicle that looks for the light: the wires cross, and it always goes
-% ahead a little. Near the lamp it comes to rest.
+% ahead a little. Both eyes are dazzled when the lamp is 40 cm ahead.
 
 :- use_module(library(ev3dev)).
 
@@ -10,19 +10,15 @@ start :-
 drive :-
     col_ambient(in2, Left),
     col_ambient(in3, Right),
-    (   Left + Right > 120,
-        us_dist_cm(in1, Distance),
-        Distance < 200
-    ->  Base = 8
-    ;   Base = 25
-    ),
-    Difference is max(-12, min(12, 3*(Left-Right))),
-    SpeedLeft is Base - Difference,
-    SpeedRight is Base + Difference,
-    (   us_dist_cm(in1, Ahead),
-        Ahead < 20
-    ->  stop
-    ;   motors_run([run(outB, SpeedLeft), run(outC, SpeedRight)]),
+    (   Left + Right > 190
+    ->  go_cm(20, 40)
+    ;   wires(Left, Right, SpeedLeft, SpeedRight),
+        motors_run([run(outB, SpeedLeft), run(outC, SpeedRight)]),
         wait(0.05),
         drive
     ).
+
+wires(Left, Right, SpeedLeft, SpeedRight) :-
+    Difference is max(-12, min(12, 3*(Left-Right))),
+    SpeedLeft is 25 - Difference,
+    SpeedRight is 25 + Difference.

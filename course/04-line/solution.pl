@@ -12,6 +12,6 @@ follow_line(Error0, Sum0) :-
     Error is Light-50,
     Sum is max(-100, min(100, Sum0 + Error*0.02)),
     Rate is 1.6*Error + 0.3*Sum + 0.06*(Error-Error0)/0.02,
-    drive_cm(12, Rate, [acceleration(100)]),
+    drive_cm(16, Rate, [acceleration(100)]),
     ignore(drive_wait([timeout(0.02)], timeout)),
     follow_line(Error, Sum).

@@ -6,7 +6,8 @@
 %   8 by 8 cells, and the boxes in them.
 box_in(1, 0). box_in(1, 1). box_in(1, 2). box_in(3, 1). box_in(3, 2).
 box_in(3, 3). box_in(2, 4). box_in(3, 4). box_in(5, 2). box_in(5, 3).
-box_in(5, 5). box_in(5, 6). box_in(6, 5). box_in(1, 6).
+box_in(5, 5). box_in(5, 6). box_in(6, 5). box_in(1, 6). box_in(0, 5).
+box_in(7, 4).
 
 free([X, Y]) :-
     between(0, 7, X),
@@ -26,7 +27,7 @@ step(left, state(Cell, [DX, DY]), state(Cell, [Left, DX])) :-
 start :-
     set_robot(5.6, 10.6, outB, outC),
     set_grid([]),
-    plan(state([0, 0], [0, 1]), [7, 7], Plan),
+    plan(state([0, 0], [0, 1]), state([7, 7], _), Plan),
     execute_plan(Plan).
 
 %   plan(+Start, +Goal, -Plan): the first state that is reached is on a way
@@ -35,7 +36,7 @@ plan(Start, Goal, Plan) :-
     search([Start-[]], [Start], Goal, Reversed),
     reverse(Reversed, Plan).
 
-search([state(Goal, _)-Plan|_], _, Goal, Plan) :-
+search([Goal-Plan|_], _, Goal, Plan) :-
     !.
 search([State-Plan|Queue0], Seen0, Goal, Found) :-
     findall(Next-[Action|Plan],

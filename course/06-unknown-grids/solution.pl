@@ -7,7 +7,7 @@
 start :-
     set_robot(5.6, 10.6, outB, outC),
     set_grid([]),
-    plan_and_go_to([7, 7], _, [planner(shortest)]).
+    plan_and_go_to([7, 7], _, [planner(plan)]).
 
 free([X, Y]) :-
     between(0, 7, X),
@@ -23,11 +23,11 @@ step(right, state(Cell, [DX, DY]), state(Cell, [DY, Left])) :-
 step(left, state(Cell, [DX, DY]), state(Cell, [Left, DX])) :-
     Left is -DY.
 
-shortest(Start, Goal, Plan) :-
+plan(Start, Goal, Plan) :-
     search([Start-[]], [Start], Goal, Reversed),
     reverse(Reversed, Plan).
 
-search([State-Plan|_], _, State, Plan) :-
+search([Goal-Plan|_], _, Goal, Plan) :-
     !.
 search([State-Plan|Queue0], Seen0, Goal, Found) :-
     findall(Next-[Action|Plan],

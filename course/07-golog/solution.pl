@@ -29,8 +29,14 @@ prim_fluent(at).
 rel_fluent(waits(T)) :-
     domain(T, table).
 
+prim_fluent(calls).
+prim_fluent(call_of(T)) :-
+    domain(T, table).
+
 initially(at, home).
 initially(waits(_), false).
+initially(calls, 0).
+initially(call_of(_), 0).
 
 % What actions need, and what they change.
 
@@ -39,10 +45,12 @@ poss(serve(T), and(at = T, waits(T))).
 
 causes_val(go(P), at, P, true).
 causes_true(call(T), waits(T), true).
+causes_val(call(_), calls, N, N is calls+1).
+causes_val(call(T), call_of(T), N, N is calls+1).
 causes_false(serve(T), waits(T), true).
 
-% The program: serve where somebody waits, then go where somebody waits, and
-% home when nobody does.
+% The program: serve where somebody waits, then go where somebody has waited
+% longest, and home when nobody waits.
 
 proc(waiter,
      prioritized_interrupts(
@@ -53,7 +61,11 @@ proc(waiter,
            interrupt(true, wait) ])).
 
 proc(serve_here, pi((t, table), [?(at = t), serve(t)])).
-proc(serve_next, pi((t, table), [?(waits(t)), go(t)])).
+proc(serve_next, pi((t, table), [?(is_next(t)), go(t)])).
+
+proc(is_next(T), and(waits(T),
+                     all((u, table),
+                         impl(waits(u), call_of(T) =< call_of(u))))).
 
 % The robot: how it does it.
 
