@@ -235,6 +235,10 @@ marking_option(Options, seeds(Seeds)) :-
     setting(seeds, Options, Seeds).
 marking_option(Options, formats([Format])) :-
     setting(format, Options, Format).
+marking_option(Options, participants(List)) :-
+    setting(participants, Options, List).
+marking_option(Options, earlier(Folder)) :-
+    setting(earlier, Options, Folder).
 marking_option(Options, redis(Address)) :-
     setting(redis, Options, Address).
 

@@ -141,7 +141,8 @@ here. All places are `X-Y` in cm.
 %   Points, of Of, what it earned. Scores is a list of
 %   score(Text, Points, Of, Missed), Missed being the number of runs that did
 %   not earn it whole. Runs is a list of run(Seed, Points, Ended, Seconds):
-%   Ended is as of sim_fenced/3, or `not_run`. Reason is a text of what is wrong with the program, or ''.
+%   Ended is as of sim_fenced/3, or `not_run`. Reason is a text of what is
+%   wrong with the program, or ''.
 %   Options:
 %
 %     - seeds(Seeds)
@@ -153,15 +154,25 @@ here. All places are `X-Y` in cm.
 %     - out(Directory)
 %       Write the reports into that directory: `index.html` for the teacher,
 %       a page for each program in `pages`, `marks.csv`, `junit.xml`,
-%       `results.json` with all marks, and for each program its result in
-%       Gradescope's form in `gradescope`.
+%       `results.json` with all marks, for each program its result in
+%       Gradescope's form in `gradescope`, and where their students are known
+%       `moodle.csv`, a grading worksheet, and `classroom.csv`.
 %     - formats(List)
-%       Which of `html`, `csv`, `junit`, `json`, `gradescope`. Default is all.
+%       Which of `html`, `csv`, `junit`, `json`, `gradescope`, `moodle`,
+%       `classroom`. Default is all.
+%     - participants(File)
+%       The list of the class, a table: Moodle's grading worksheet, a roster
+%       of GitHub Classroom, or any other with names. Who is in no submission
+%       gets a mark without points.
+%     - earlier(Folder)
+%       Submissions of an earlier class, for similar programs.
 %     - enclosed(Boolean)
 %       Whether to shut programs in by bubblewrap. By default if it is
 %       installed; a message says so if it is not.
 %
 %   @error existence_error(source_sink, File)
+%   @error existence_error(directory, Folder)
+%   @error domain_error(participants, File) if it has no rows
 %   @error domain_error(exercise, Fact) if something is wrong in Exercise
 %   @error domain_error(exercise_option, Option)
 %   @error the errors of sim_batch/5
@@ -169,7 +180,8 @@ here. All places are `X-Y` in cm.
 exercise_mark(Exercise, Files, Options, Marks) :-
     must_be(list, Files),
     must_be_options(exercise_option,
-                    [seeds, jobs, redis, out, formats, enclosed], Options),
+                    [ seeds, jobs, redis, out, formats, enclosed,
+                      participants, earlier ], Options),
     marks(Exercise, Files, Options, Marks).
 
 %!  exercise_try(+Exercise, +File, +Options) is semidet.

@@ -5,6 +5,10 @@
 :- use_module(library(ev3dev/exercise)).
 :- use_module(library(ev3dev/private/app/command_line), []).
 :- use_module(library(ev3dev/private/marking/reasons), []).
+:- use_module(library(ev3dev/private/marking/alike), []).
+:- use_module(library(ev3dev/private/marking/participants), []).
+:- use_module(library(ev3dev/private/marking/read), []).
+:- use_module(library(ev3dev/private/marking/report), []).
 :- use_module(library(ev3dev/private/marking/submissions), []).
 :- use_module(library(filesex)).
 :- use_module(library(process)).
@@ -147,5 +151,130 @@ says("Nothing is wrong", 'It ended at 3.0 s with the exit status 2.').
 
 test(the_error_comes_first, [forall(says(Output, Reason0)), Reason == Reason0]) :-
     ev3dev_marking_reasons:reason(exit(2), Output, '/a/mine.pl', limits(1, 2), 3.0, Reason).
+
+% ---------------- LIKENESS
+
+rules("avoid :: us_dist_cm(in1, Cm), Cm < 40 ~> turn(20).\nwander :: true ~> go(25).\n\c
+       start :- set_robot(5.6, 10.6, outB, outC), look(3, at(1, 2)), behave([avoid, wander]).\n\c
+       look(0, _) :- !.\nlook(N, at(X, Y)) :- M is N-1, turn(20, 90), Z is X+Y, look(M, at(Z, Y)).").
+%   The same with other names, numbers and order.
+renamed("schau(0, _) :- !.\nschau(K, pos(A,B)) :- L is K-1, turn(20,90), C is A+B, schau(L, pos(C,B)).\n\c
+         start :- set_robot(5.6,10.6,outB,outC), schau(4, pos(1,5)), behave([weg,los]).\n\c
+         los :: true ~> go(30).\nweg :: us_dist_cm(in1, D), D < 30 ~> turn(30).\n").
+other("start :- set_robot(5.6, 10.6, outB, outC), repeat, us_dist_cm(in1, D),\n\c
+           ( D > 22 -> go(20), fail ; stop ), !, say(done, [wait(true)]).").
+short(Cm, Text) :-
+    format(string(Text), "start :- set_robot(5.6, 10.6, outB, outC), go_cm(20, ~d).", [Cm]).
+
+alike(Programs, Earlier, Given, Found) :-
+    maplist(named_terms, Programs, Ones),
+    maplist(named_terms, Earlier, Others),
+    named_terms(x-Given, x-Terms),
+    ev3dev_marking_alike:alike(Ones, Others, Terms, Pairs),
+    findall(A-B, member(alike(A, B, _, _), Pairs), Found).
+
+named_terms(Name-Text, Name-Terms) :-
+    ev3dev_marking_read:program_terms(Text, Terms).
+
+test(a_copy_with_other_names_is_found, Found == [a-this(b)]) :-
+    rules(A), renamed(B), other(C),
+    alike([a-A, b-B, c-C], [], "", Found).
+test(a_copy_of_last_year_is_found, Found == [a-earlier(b)]) :-
+    rules(A), renamed(B), other(C),
+    alike([a-A, c-C], [b-B], "", Found).
+test(the_same_name_is_no_reason_to_be_silent, Found == [mine-this(mine)]) :-
+    rules(A), renamed(B),
+    alike([mine-A, mine-B], [], "", Found).
+test(what_is_given_is_nobodys, Found == []) :-
+    rules(A), renamed(B),
+    alike([a-A, b-B], [], A, Found).
+test(short_programs_need_the_same_numbers, Found == [a-this(c)]) :-
+    short(108, A), short(99, B),
+    other(D), rules(E),
+    alike([a-A, b-B, c-A, d-D, e-E], [], "start :- set_robot(5.6, 10.6, outB, outC).", Found).
+
+% ---------------- PARTICIPANTS, AND THE FORMS OF MARKS
+
+%   A class of made-up marks: Name-Keys-Points, each of 4, in two runs.
+report(Students, List, Formats, Names, Texts) :-
+    with_folder(Folder,
+        ( findall(submission(Name, Keys, [], ''), member(Name-Keys-_, Students), Subs0),
+          (   List == none
+          ->  Participants = participants([], []), Subs = Subs0
+          ;   atom_concat(Folder, '/list.csv', File),
+              written(File, utf8, List),
+              ev3dev_marking_participants:read_participants(File, Participants),
+              ev3dev_marking_participants:with_participants(Participants, Subs0, Subs, _)
+          ),
+          findall(marked(Name, mark(Name, P, 4, [score('a <b>', P, 4, 1)],
+                                    [run(1, P, over, 5.0), run(7654, P, over, 5.0)], Why),
+                         [result(1, not_run), result(7654, not_run)], Sub),
+                  ( member(Sub, Subs), Sub = submission(Name, _, _, Why),
+                    ( member(Name-_-P, Students) -> true ; P = 0 ) ),
+                  Marked),
+          atom_concat(Folder, '/out', Out),
+          ev3dev_marking_report:write_reports(
+              Formats, Out, exercise(user, maze, [seeds(1-3)], [score(4, 'a <b>', x, 1)]),
+              class(Participants, [], [], []), Marked),
+          findall(Text, ( member(Name, Names), atomic_list_concat([Out, /, Name], Path),
+                          ( exists_file(Path) -> read_file_to_string(Path, Text, [encoding(utf8)])
+                          ; Text = none ) ), Texts) )).
+
+test(a_worksheet_of_moodle_is_filled_in, Text == Expected) :-
+    Head = "Identifier,Full name,Email address,Status,Grade,Maximum grade,Last modified (grade),Feedback comments\r\n",
+    string_concat(Head, "Participant 12,Anna Lee,a@x.org,,,100.00,\"Monday, 1 June 2026\",\r\n\c
+                         Participant 112,Bo Li,b@x.org,,,100.00,-,\r\n", List),
+    report(['Anna Lee'-[id('12')]-3], List, [moodle], ['moodle.csv'], [Text]),
+    string_concat(Head,
+        "Participant 12,Anna Lee,a@x.org,,75,100.00,\"Monday, 1 June 2026\",\c
+         3 of 4: a &lt;b&gt; (not in 1 of 2 runs)<br>\r\n\c
+         Participant 112,Bo Li,b@x.org,,0,100.00,-,\c
+         0 of 4: a &lt;b&gt; (not in 1 of 2 runs)<br>Nothing was handed in.\r\n", Expected).
+test(a_worksheet_in_german, true(sub_string(Text, _, _, _, ",75,\"100,00\",,3 of 4"))) :-
+    report(['Anna Lee'-[id('12')]-3],
+           "\uFEFFID,Vollst\u00e4ndiger Name,Bewertung,Bestwertung,Zuletzt,Feedback\r\n\c
+            Teilnehmer/in12,Anna Lee,,\"100,00\",,\r\nTeilnehmer/in13,Bo Li,,\"100,00\",,\r\n",
+           [moodle], ['moodle.csv'], [Text]).
+test(without_a_worksheet_it_is_made, Text == Expected) :-
+    report(['=cmd'-[id('12')]-3, b-[]-1], none, all, ['moodle.csv'], [Text]),
+    Expected = "Identifier,Full name,Grade,Last modified (grade),Feedback comments\r\n\c
+                Participant 12,'=cmd,3,,3 of 4: a &lt;b&gt; (not in 1 of 2 runs)<br>\r\n".
+test(a_roster_of_github_classroom, Texts == [Expected, none]) :-
+    report(['maze-anna'-[]-3, 'maze-bo'-[]-1],
+           "\"identifier\",\"github_username\",\"github_id\",\"name\"\n\c
+            \"a@x.org\",\"anna\",\"1\",\"\"\n\"b@x.org\",\"bo\",\"2\",\"\"\n\"c@x.org\",\"zoe\",\"3\",\"\"\n",
+           all, ['classroom.csv', 'moodle.csv'], Texts),
+    Expected = "assignment_name,github_username,roster_identifier,student_repository_name,points_awarded,points_available\r\n\c
+                maze,anna,a@x.org,maze-anna,3,4\r\nmaze,bo,b@x.org,maze-bo,1,4\r\nmaze,zoe,c@x.org,c@x.org,0,4\r\n".
+test(who_handed_in_nothing_has_a_row, true(sub_string(Text, _, _, _, "Li Bo,0,4,0,Nothing was handed in."))) :-
+    report(['Lee Anna'-[]-3], "first;last\nAnna;Lee\nBo;Li\n", [csv], ['marks.csv'], [Text]).
+test(gradescope_shows_secret_runs_when_it_is_published, true) :-
+    report([a-[]-3], none, [gradescope], ['gradescope/a.json'], [Text]),
+    assertion(sub_string(Text, _, _, _, "\"visibility\":\"after_published\"")),
+    assertion(sub_string(Text, _, _, _, "\"stdout_visibility\":\"hidden\"")).
+test(no_list, error(domain_error(participants, _))) :-
+    report([a-[]-3], "name\n", [csv], [], _).
+
+test(any_name_has_a_page_and_a_row, Count/Low == 60/60) :-
+    with_folder(Folder,
+        ( sixty(Folder),
+          findall(Path, ( member(Part, [moodle, github, gradescope, plain]),
+                          atomic_list_concat([Folder, /, Part], Path) ), Paths),
+          ev3dev_marking_submissions:submissions(Paths, start, Subs, _) )),
+    findall(Name, member(submission(Name, _, _, _), Subs), Names),
+    ev3dev_marking_report:page_names(Names, [], Pages),
+    findall(Page, ( member(_-Page0, Pages), downcase_atom(Page0, Page) ), All0),
+    sort(All0, All),
+    length(Pages, Count),
+    length(All, Low),
+    assertion(memberchk('a\nb'-a_b, Pages)),
+    assertion(\+ ( member(_-Page, Pages), ( atom_length(Page, L), L > 70 ; sub_atom(Page, _, _, _, /) ) )).
+test(the_page_of_the_class, true) :-
+    report([a-[]-3, b-[]-1, c-[]-2, d-[]-2], none, all, ['index.html', 'results.json'], [Text, Json]),
+    assertion(sub_string(Text, _, _, _, "4 programs, 2.00 points in the mean, 2 in the middle.")),
+    assertion(sub_string(Text, _, _, _, "Hardest: a &lt;b&gt;, with 50 % of its points")),
+    assertion(sub_string(Text, _, _, _, "<svg class=\"histogram\"")),
+    assertion(\+ sub_string(Text, _, _, _, "<link")),
+    assertion(sub_string(Json, _, _, _, "\"not_marked\"")).
 
 :- end_tests(exercise_forms).

@@ -58,8 +58,12 @@ option(seeds, 'A-B', 'seeds, as 1-10', [try, mark],
        'other runs than those of the exercise').
 option(page, 'PAGE', 'a file', [try], 'for the picture').
 option(out, 'FOLDER', 'a folder', [mark], 'for the reports: marks').
-option(format, 'FORMAT', 'one of html, csv, junit, json, gradescope', [mark],
-       'only this: html, csv, junit, json or gradescope').
+option(format, 'FORMAT', 'a format', [mark],
+       'only html, csv, junit, json, gradescope, moodle or classroom').
+option(participants, 'LIST', 'a file', [mark],
+       'the class: a grading worksheet, roster or other table').
+option(earlier, 'FOLDER', 'a folder', [mark],
+       'an earlier class, for similar programs').
 option(redis, 'ADDRESS', 'an address', [work, mark],
        'of the server, as HOST:PORT: localhost:6379').
 option(workers, 'N', 'a whole number above 0', [work],

@@ -28,7 +28,8 @@ check_exercise(exercise(Module, _, _, _)) :-
     (   Found == []
     ->  true
     ;   findall(Text,
-                ( member(Line-Called, Found), said(Module, Line, Called, Text) ),
+                ( member(Line-Called, Found),
+                  said(Module, Line, Called, Text) ),
                 Texts),
         atomic_list_concat(Texts, '; ', Message),
         findall(Called, member(_-Called, Found), All0),
@@ -52,7 +53,8 @@ said(Module, Line, Name/Arity, Text) :-
     functor(Goal, Name, Arity),
     (   dwim_predicate(Module:Goal, Meant0),
         strip_module(Meant0, _, Meant),
-        functor(Meant, Other, OtherArity)
+        functor(Meant, Other, OtherArity),
+        Other \== Name
     ->  format(atom(Text),
                'line ~d: there is no ~w/~w (did you mean ~w/~w?)',
                [Line, Name, Arity, Other, OtherArity])

@@ -9,12 +9,15 @@
 :- use_module('../../sim_fenced', [can_enclose/0]).
 :- use_module('../checks/arguments', [option/2, option/3]).
 :- use_module('../checks/checks', [must_be/2]).
+:- use_module('../files/directory', [directory_path/2]).
 :- use_module('../errors/errors', [domain_error/2, in_own_name/1]).
 :- use_module(check, [check_exercise/1]).
 :- use_module(read,
               [ exercise_seeds/3, exercise_setting/3, forbidden/3,
                 read_exercise/2, seed_list/2 ]).
-:- use_module(submissions, [submissions/4]).
+:- use_module(forms, [form/2]).
+:- use_module(participants, [read_participants/2, with_participants/4]).
+:- use_module(submissions, [can_be/2, submissions/4]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
               [append/3, member/2, nth1/3, sum_list/2]).
@@ -35,23 +38,57 @@ marked_run/4, or `not_run`; and the submission as of submissions/4.
 marks(Exercise0, Files, Options, Marks) :-
     exercise_to_mark(Exercise0, Exercise, Read),
     seeds(Read, all, Options, Seeds),
-    handed_in(Files, Read, Submissions, Left),
-    forall(member(left(File, Why), Left),
-           print_message(warning, ev3dev(not_marked(File, Why)))),
+    option(formats(Formats), Options, all),
+    must_be_formats(Formats),
+    class(Files, Exercise, Read, Options, Submissions, Class),
     marked_files(Exercise, Read, Submissions, Seeds, Options, Marked),
     findall(Mark, member(marked(mark: Mark), Marked), Marks),
     (   option(out(Directory), Options)
-    ->  All = [html, csv, junit, json, gradescope],
-        option(formats(Formats), Options, All),
-        must_be(list, Formats),
-        forall(member(Format, Formats),
-               (   memberchk(Format, All)
-               ->  true
-               ;   domain_error(marks_format, Format)
-               )),
-        use_module(library(ev3dev/private/marking/report), []),
-        ev3dev_marking_report:write_reports(Formats, Directory, Read, Marked)
+    ->  use_module(library(ev3dev/private/marking/report), []),
+        ev3dev_marking_report:write_reports(Formats, Directory, Read, Class,
+                                            Marked)
     ;   true
+    ).
+
+must_be_formats(all) :-
+    !.
+must_be_formats(Formats) :-
+    must_be(list, Formats),
+    forall(member(Format, Formats),
+           (   ( memberchk(Format, [html, gradescope]) ; form(Format, _) )
+           ->  true
+           ;   domain_error(marks_format, Format)
+           )).
+
+%   Submissions are those of Files, and a refused one for each participant who
+%   handed in nothing.
+
+class(Files, Exercise, Read, Options, Submissions,
+      class(Participants, Left, Earlier, Given)) :-
+    (   option(participants(List), Options)
+    ->  read_participants(List, Participants)
+    ;   Participants = participants([], [])
+    ),
+    handed_in(Files, Read, Submissions0, Left),
+    forall(member(left(File, Why), Left),
+           print_message(warning, ev3dev(not_marked(File, Why)))),
+    (   Participants = participants([], [])
+    ->  Submissions = Submissions0
+    ;   with_participants(Participants, Submissions0, Submissions, Strangers),
+        forall(member(Name, Strangers),
+               print_message(warning, ev3dev(stranger(Name, List))))
+    ),
+    (   option(earlier(Folder), Options)
+    ->  directory_path(Folder, Path),
+        handed_in([Path], Read, Earlier, _)
+    ;   Earlier = []
+    ),
+    file_directory_name(Exercise, Here),
+    directory_file_path(Here, 'skeleton.pl', Skeleton),
+    (   exists_file(Skeleton),
+        handed_in([Skeleton], Read, [submission(_, _, [First|_], _)], _)
+    ->  First = file(_, _, _, Given)
+    ;   Given = []
     ).
 
 handed_in(Files, Read, Submissions, Left) :-
@@ -215,6 +252,8 @@ prolog:message(ev3dev(not_enclosed)) -->
 
 prolog:message(ev3dev(not_marked(File, Why))) -->
     [ 'Not marked: ~w: ~w'-[File, Why] ].
+prolog:message(ev3dev(stranger(Name, List))) -->
+    [ '~w is marked, but has no row in ~w'-[Name, List] ].
 
 %   program(Number, Name, Files, Submission, Reason): Reason is '' if it may
 %   run. Files are Path-Bytes, of which the first begins.
@@ -234,20 +273,6 @@ program(Submission, Number, Read,
         ;   format(atom(Reason), '~w: ~w', [Path, Reason0])
         )
     ;   Reason = ''
-    ).
-
-%   A name that the locale can write.
-
-can_be(Path0, Path) :-
-    atom_concat(/, Path0, Whole),
-    (   catch(is_absolute_file_name(Whole), error(_, _), fail)
-    ->  Path = Path0
-    ;   atom_codes(Path0, Codes0),
-        findall(Code,
-                ( member(Code0, Codes0),
-                  ( Code0 > 127 -> Code = 0'_ ; Code = Code0 ) ),
-                Codes),
-        atom_codes(Path, Codes)
     ).
 
 %   A run that says nothing, as the machine was too busy, is made again. Where

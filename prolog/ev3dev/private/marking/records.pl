@@ -5,9 +5,12 @@
                  collisions)).
 :- fields(mark(name, points, of, scores, runs, reason)).
 :- fields(marked(name, mark, results, submission)).
+:- fields(class(participants, left, earlier, given)).
 
 /** <module> Records of marking
 
 A result is that of a run, see run.pl; a mark is that of exercise_mark/4;
-`marked` is a program with its mark, its results, and its submission.
+`marked` is a program with its mark, its results, and its submission. A class
+has its list of participants; what is left, as of submissions/4; submissions
+of an earlier class; and terms that are given, of the skeleton.
 */

@@ -1,20 +1,21 @@
 :- module(ev3dev_marking_report,
-          [ write_reports/4,            % +Formats, +Directory, +Exercise,
-                                        % +Marked
+          [ write_reports/5,            % +Formats, +Directory, +Exercise,
+                                        % +Class, +Marked
             write_page/4                % +File, +Exercise, +Shown, +Marked
           ]).
 :- use_module('../basics/fields', [goal_expansion/2, term_expansion/2]).
 :- use_module(records, []).
-:- use_module(alike, [alike/2, clause_lines/3]).
+:- use_module(alike, [alike/4, alike_lines/3]).
 :- use_module(film, [film/3]).
+:- use_module(forms,
+              [ end_words/2, form/2, gradescope/2, has_form/3, text/1,
+                write_form/4 ]).
 :- use_module(read, [exercise_seeds/3]).
+:- use_module(submissions, [can_be/2]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(csv), [csv_write_stream/3]).
-:- use_module(library(http/json), [json_write/2]).
 :- use_module(library(lists),
-              [append/3, member/2, nth1/3, sum_list/2]).
-:- use_module(library(sgml), [xml_quote_attribute/3]).
+              [append/3, member/2, nth0/3, nth1/3, sum_list/2]).
 :- use_module(library(uri), [uri_encoded/3]).
 
 /** <module> Marks in files: for the teacher, the student, and other programs
@@ -23,43 +24,92 @@ Pages are whole: no style, picture or script is elsewhere. All texts of
 programs are escaped.
 */
 
-%!  write_reports(+Formats, +Directory, +Exercise, +Marked) is det.
+%!  write_reports(+Formats, +Directory, +Exercise, +Class, +Marked) is det.
+%
+%   Formats is a list, or `all`, which leaves out those for which nothing is
+%   known.
 
-write_reports(Formats, Directory, Exercise, Marked) :-
+write_reports(Formats, Directory, Exercise, Class, Marked) :-
     make_directory_path(Directory),
-    forall(member(Format, Formats),
-           write_report(Format, Directory, Exercise, Marked)).
+    findall(Name, member(marked(name: Name), Marked), Names),
+    page_names(Names, [], Pages),
+    forall(( member(Format, [html, gradescope])
+           ; form(Format, _) ),
+           (   (   Formats == all
+               ->  has_form(Format, Class, Marked)
+               ;   memberchk(Format, Formats)
+               )
+           ->  write_report(Format, Directory, Exercise, Class, Pages, Marked)
+           ;   true
+           )).
 
-write_report(html, Directory, Exercise, Marked) :-
-    directory_file_path(Directory, pages, Pages),
-    make_directory_path(Pages),
+write_report(html, Directory, Exercise, Class, Pages, Marked) :-
+    !,
+    exercise_seeds(Exercise, open, Open),
     forall(member(One, Marked),
            ( One = marked(name: Name),
-             html_file(Pages, Name, File),
-             exercise_seeds(Exercise, open, Open),
+             page_file(Directory, pages, Name, Pages, '.html', File),
              write_page(File, Exercise, Open, One) )),
     directory_file_path(Directory, 'index.html', Index),
-    to_file(Index, class_page(Exercise, Marked)).
-write_report(gradescope, Directory, _, Marked) :-
-    directory_file_path(Directory, gradescope, Folder),
-    make_directory_path(Folder),
-    forall(member(marked(Name, Mark, _, _), Marked),
-           ( atom_concat(Name, '.json', Base),
-             directory_file_path(Folder, Base, File),
-             to_file(File, gradescope(Mark)) )).
-
-write_report(Format, Directory, Exercise, Marked) :-
-    one_file(Format, Name, Writer),
+    to_file(Index, class_page(Exercise, Class, Pages, Marked)).
+write_report(gradescope, Directory, Exercise, _, Pages, Marked) :-
+    !,
+    exercise_seeds(Exercise, all, Seeds),
+    forall(member(marked(name: Name, mark: Mark), Marked),
+           ( page_file(Directory, gradescope, Name, Pages, '.json', File),
+             Mark = mark(runs: Runs),
+             (   member(run(Seed, _, _, _), Runs),
+                 \+ memberchk(Seed, Seeds)
+             ->  Visibility = after_published
+             ;   Visibility = visible
+             ),
+             to_file(File, gradescope(Mark, Visibility)) )).
+write_report(Format, Directory, Exercise, Class, _, Marked) :-
+    form(Format, Name),
     directory_file_path(Directory, Name, File),
-    to_file(File, call(Writer, Exercise, Marked)).
+    to_file(File, write_form(Format, Exercise, Class, Marked)).
 
-one_file(csv, 'marks.csv', csv).
-one_file(junit, 'junit.xml', junit).
-one_file(json, 'results.json', json_marks).
+page_file(Directory, Folder, Name, Pages, Ending, File) :-
+    directory_file_path(Directory, Folder, Path),
+    make_directory_path(Path),
+    memberchk(Name-Page, Pages),
+    atom_concat(Page, Ending, Base),
+    directory_file_path(Path, Base, File).
 
-html_file(Folder, Name, File) :-
-    atom_concat(Name, '.html', Base),
-    directory_file_path(Folder, Base, File).
+%   A name may have anything in it, and 255 bytes. That of its page is short
+%   and plain, and differs from the others by more than capitals.
+
+page_names([], _, []).
+page_names([Name|Names], Taken, [Name-Page|Pages]) :-
+    can_be(Name, Name1),
+    atom_codes(Name1, Codes0),
+    findall(Code,
+            ( nth0(N, Codes0, Code0),
+              N < 60,
+              (   code_type(Code0, alnum)
+              ->  Code = Code0
+              ;   memberchk(Code0, [0' , 0'-, 0'.]),
+                  N > 0
+              ->  Code = Code0
+              ;   Code = 0'_
+              ) ),
+            Codes),
+    atom_codes(Plain, Codes),
+    free_page(Plain, 1, Taken, Page, Low),
+    page_names(Names, [Low|Taken], Pages).
+
+free_page(Plain, Number, Taken, Page, Low) :-
+    (   Number =:= 1
+    ->  Page1 = Plain
+    ;   atomic_list_concat([Plain, Number], '_', Page1)
+    ),
+    downcase_atom(Page1, Low1),
+    (   memberchk(Low1, Taken)
+    ->  Next is Number+1,
+        free_page(Plain, Next, Taken, Page, Low)
+    ;   Page = Page1,
+        Low = Low1
+    ).
 
 :- meta_predicate to_file(+, 0).
 
@@ -94,7 +144,17 @@ style :-
             .bar { background: #36c; height: .7rem; min-width: 1px }~n\c
             .wide { overflow-x: auto }~n\c
             svg { max-width: 100%; height: auto; background: #fff }~n\c
-            input[type=range] { width: 100% }~n", []).
+            .histogram { width: 30rem; background: none; fill: #36c }~n\c
+            .histogram text { font-size: 9px; fill: currentColor }~n\c
+            .histogram { text-anchor: middle }~n\c
+            .sort th { cursor: pointer; \c
+            text-decoration: underline dotted }~n\c
+            a { overflow-wrap: anywhere }~n\c
+            mark { background: #fd68; color: inherit }~n\c
+            input[type=range] { width: 100% }~n\c
+            @media print { button, input { display: none }~n\c
+            .bar, .histogram { print-color-adjust: exact }~n\c
+            tr { break-inside: avoid } .wide { overflow: visible } }~n", []).
 
 %!  write_page(+File, +Exercise, +Shown, +Marked) is det.
 %
@@ -157,21 +217,6 @@ shown(_, all) :-
 shown(Seed, Shown) :-
     memberchk(Seed, Shown).
 
-end_words(over, 'time over').
-end_words(not_run, 'not run').
-end_words(exit(0), 'ended by itself').
-end_words(exit(Status), Words) :-
-    Status \== 0,
-    format(atom(Words), 'ended with the status ~w', [Status]).
-end_words(killed(Signal), Words) :-
-    format(atom(Words), 'crashed (signal ~w)', [Signal]).
-end_words(limit(cpu), 'too much processor time').
-end_words(limit(sleep), 'slept too long').
-end_words(limit(output), 'printed too much').
-end_words(refused(_), 'refused').
-end_words(lost, 'not judged').
-end_words(error(_), 'lost').
-
 %   That with the least points, of those that drove.
 
 worst(Runs, Results, Seed, Result) :-
@@ -183,64 +228,217 @@ worst(Runs, Results, Seed, Result) :-
     msort(Pairs, [_-First|_]),
     nth1(First, Results, result(Seed, Result)).
 
-class_page(exercise(_, Title, _, Scores), Marked) :-
-    page(Title, class_body(Scores, Marked)).
+class_page(Exercise, Class, Pages, Marked) :-
+    Exercise = exercise(_, Title, _, Scores),
+    page(Title, class_body(Scores, Class, Pages, Marked)).
 
-class_body(Scores, Marked) :-
+class_body(Scores, Class, Pages, Marked) :-
     findall(P, member(marked(mark: mark(points: P)), Marked), Ps),
     length(Ps, Count),
     sum_list(Ps, Sum),
     Mean is Sum/max(1, Count),
-    format("<p>~d programs, ~2f points in the mean.</p>~n\c
-            <div class=\"wide\"><table>~n<tr><th>Program\c
-            <th class=\"n\">Points<th class=\"n\">of<th>Share<th>Remark~n",
-           [Count, Mean]),
-    forall(member(marked(name: Name,
-                         mark: mark(points: P, of: Of, reason: Reason)),
-                  Marked),
-           ( Percent is round(100*P/Of),
-             format("<tr><td><a href=\"pages/", []),
-             uri_encoded(path, Name, Link),
-             format("~w.html\">", [Link]),
-             text(Name),
-             format("</a><td class=\"n\">~w<td class=\"n\">~w<td>\c
-                     <div class=\"bar\" style=\"width: ~2fem\"></div><td>",
-                    [P, Of, Percent/12.5]),
-             text(Reason),
-             nl )),
-    format("</table></div>~n<h2>What was missed</h2>~n\c
-            <div class=\"wide\"><table>~n<tr><th>Score<th class=\"n\">of\c
-            <th class=\"n\">in the mean<th class=\"n\">programs that missed \c
-            it in some run~n", []),
-    forall(nth1(N, Scores, score(Full, Text, _, _)),
-           ( findall(P-Missed,
-                     ( member(marked(mark: mark(scores: Its)),
-                              Marked),
-                       nth1(N, Its, score(_, P, _, Missed)) ),
-                     Earned),
-             findall(P, member(P-_, Earned), EarnedPs),
-             sum_list(EarnedPs, EarnedSum),
-             EarnedMean is EarnedSum/max(1, Count),
-             findall(x, ( member(_-Missed, Earned), Missed > 0 ), Misses),
-             length(Misses, MissCount),
-             format("<tr><td>", []),
+    format("<p>~d programs, ~2f points in the mean", [Count, Mean]),
+    ( median(Ps, Median) -> format(", ~w in the middle", [Median]) ; true ),
+    format(".</p>~n", []),
+    histogram(Marked),
+    format("<div class=\"wide\"><table class=\"sort\">~n<tr><th>Program\c
+            <th class=\"n\">Points<th class=\"n\">of<th>Share\c
+            <th>Worst run<th>Remark~n", []),
+    forall(member(One, Marked), class_row(One, Pages)),
+    format("</table></div>~n", []),
+    missed_scores(Scores, Count, Marked),
+    Class = class(left: Left),
+    not_marked(Left),
+    similar(Class, Marked),
+    sorting.
+
+class_row(marked(Name, mark(_, P, Of, _, Runs, Reason), Results, _), Pages) :-
+    memberchk(Name-Page, Pages),
+    uri_encoded(path, Page, Link),
+    Percent is round(100*P/Of),
+    format("<tr><td><a href=\"pages/~w.html\">", [Link]),
+    text(Name),
+    format("</a><td class=\"n\">~w<td class=\"n\">~w<td>\c
+            <div class=\"bar\" style=\"width: ~2fem\"></div><td>",
+           [P, Of, Percent/12.5]),
+    (   worst(Runs, Results, Seed, _)
+    ->  format("<a href=\"pages/~w.html#worst\">seed ~w</a>", [Link, Seed])
+    ;   true
+    ),
+    format("<td>", []),
+    text(Reason),
+    nl.
+
+median(Ps, Median) :-
+    msort(Ps, Sorted),
+    length(Sorted, Count),
+    Count > 0,
+    Upper is Count//2,
+    Lower is (Count-1)//2,
+    nth0(Upper, Sorted, A),
+    nth0(Lower, Sorted, B),
+    Mean is (A+B)/2.0,
+    ( Mean =:= truncate(Mean) -> Median is truncate(Mean)
+    ; Median is round(100*Mean)/100.0 ).
+
+%   How many have how much of the points, in ten parts.
+
+histogram(Marked) :-
+    findall(Part,
+            ( member(marked(mark: mark(points: P, of: Of)), Marked),
+              Of > 0,
+              Part is min(9, floor(10*P/Of)) ),
+            Parts),
+    findall(Count,
+            ( between(0, 9, Part),
+              findall(x, member(Part, Parts), Its),
+              length(Its, Count) ),
+            Counts),
+    msort([1|Counts], Sorted),
+    append(_, [Most], Sorted),
+    format("<svg class=\"histogram\" viewBox=\"0 0 300 100\" role=\"img\" \c
+            aria-label=\"How many programs have how much of the points\">~n",
+           []),
+    forall(nth0(N, Counts, Count),
+           ( X is 30*N,
+             Height is 70*Count/Most,
+             Top is 80-Height,
+             Middle is X+15,
+             Label is Top-3,
+             format("<rect x=\"~d\" y=\"~1f\" width=\"28\" \c
+                     height=\"~1f\"/>~n", [X, Top, Height]),
+             ( Count > 0
+             ->  format("<text x=\"~d\" y=\"~1f\">~d</text>~n",
+                        [Middle, Label, Count])
+             ;   true ),
+             format("<text x=\"~d\" y=\"93\">~d0</text>~n", [X, N]) )),
+    format("<text x=\"295\" y=\"93\">100 %</text>~n</svg>~n", []).
+
+missed_scores(Scores, Count, Marked) :-
+    findall(Share-score(Text, Full, Mean, Missed),
+            ( nth1(N, Scores, score(Full, Text, _, _)),
+              findall(P-M,
+                      ( member(marked(mark: mark(scores: Its)), Marked),
+                        nth1(N, Its, score(_, P, _, M)) ),
+                      Earned),
+              findall(P, member(P-_, Earned), Ps),
+              sum_list(Ps, Sum),
+              Mean is Sum/max(1, Count),
+              Share is Mean/Full,
+              findall(x, ( member(_-M, Earned), M > 0 ), Misses),
+              length(Misses, Missed) ),
+            Rows),
+    format("<h2>What was missed</h2>~n", []),
+    (   keysort(Rows, [Least-score(Hardest, _, _, _)|_]),
+        Least < 1
+    ->  Percent is round(100*Least),
+        format("<p>Hardest: ", []),
+        text(Hardest),
+        format(", with ~d % of its points in the mean.</p>~n", [Percent])
+    ;   true
+    ),
+    format("<div class=\"wide\"><table class=\"sort\">~n<tr><th>Score\c
+            <th class=\"n\">of<th class=\"n\">in the mean\c
+            <th class=\"n\">programs that missed it in some run~n", []),
+    forall(member(_-score(Text, Full, Mean, Missed), Rows),
+           ( format("<tr><td>", []),
              text(Text),
              format("<td class=\"n\">~w<td class=\"n\">~2f\c
-                     <td class=\"n\">~d~n", [Full, EarnedMean, MissCount])
-           )),
-    format("</table></div>~n", []),
+                     <td class=\"n\">~d~n", [Full, Mean, Missed]) )),
+    format("</table></div>~n", []).
+
+not_marked([]) :-
+    !.
+not_marked(Left) :-
+    format("<h2>Not marked</h2>~n<ul>~n", []),
+    forall(member(left(File, Why), Left),
+           ( format("<li>", []), text(File), format(": ", []), text(Why),
+             nl )),
+    format("</ul>~n", []).
+
+%   A click on a heading sorts; another one turns the order around.
+
+sorting :-
+    format("<script>~n\c
+for (const table of document.querySelectorAll('table.sort')) {~n\c
+  const [head, ...rows] = table.rows~n\c
+  const value = (row, n) => row.cells[n].textContent.trim() ||~n\c
+    row.cells[n].querySelector('div')?.style.width || ''~n\c
+  ;[...head.cells].forEach((cell, n) => {~n\c
+    let turn = 1~n\c
+    cell.tabIndex = 0~n\c
+    cell.title = 'sort'~n\c
+    const sort = () => {~n\c
+      rows.sort((a, b) => turn * value(a, n).localeCompare(~n\c
+        value(b, n), undefined, { numeric: true }))~n\c
+      turn = -turn~n\c
+      for (const row of rows) row.parentNode.append(row)~n\c
+    }~n\c
+    cell.addEventListener('click', sort)~n\c
+    cell.addEventListener('keydown', event => {~n\c
+      if (event.key === 'Enter') sort()~n\c
+    })~n\c
+  })~n\c
+}~n\c
+</script>~n", []).
+
+% ---------------- LIKENESS
+
+most_pairs(100).
+
+similar(Class, Marked) :-
+    Class = class(earlier: Earlier, given: Given),
     findall(Name-Terms,
             ( member(marked(name: Name, submission: Submission), Marked),
               whole_text(Submission, _, Terms) ),
             Programs),
-    alike(Programs, Pairs),
+    findall(Name-Terms,
+            ( member(Submission, Earlier),
+              Submission = submission(Name, _, _, _),
+              whole_text(Submission, _, Terms) ),
+            Others),
+    alike(Programs, Others, Given, Pairs),
     (   Pairs == []
     ->  true
-    ;   format("<h2>Programs that look alike</h2>~n<p>Their clauses are \c
-                the same but for the names of variables. That is a reason \c
-                to ask, and no judgement.</p>~n", []),
-        forall(member(Pair, Pairs), side_by_side(Pair, Marked))
+    ;   length(Pairs, Count),
+        most_pairs(Most),
+        Shown is min(Count, Most),
+        format("<h2>Programs that look alike</h2>~n<p>Their structure is \c
+                the same, whatever the names and the order of clauses. That \c
+                is a reason to ask, and no judgement. ", []),
+        ( Shown < Count
+        ->  format("Shown are ~d of ~d pairs.", [Shown, Count])
+        ;   true ),
+        format("</p>~n", []),
+        forall(( nth1(N, Pairs, Pair), N =< Shown ),
+               side_by_side(Pair, Earlier, Marked))
     ).
+
+side_by_side(alike(A, B, Share, Shared), Earlier, Marked) :-
+    Percent is round(100*Share),
+    format("<details><summary>", []),
+    text(A),
+    format(" and ", []),
+    ( B = this(Name) -> true ; B = earlier(Name), format("earlier: ", []) ),
+    text(Name),
+    format(": ~d %</summary>~n<div class=\"two\">~n", [Percent]),
+    forall(( member(Which, [this(A), B]),
+             program_of(Which, Earlier, Marked, Submission) ),
+           ( whole_text(Submission, Text, Terms),
+             alike_lines(Terms, Shared, Starts),
+             findall(Line, member(term(_, Line), Terms), Lines),
+             split_string(Text, "\n", "\r", Texts),
+             format("<pre>", []),
+             marked_lines(Texts, 1, plain, Lines, Starts),
+             format("</pre>~n", []) )),
+    format("</div></details>~n", []).
+
+program_of(this(Name), _, Marked, Submission) :-
+    member(marked(name: Name, submission: Submission), Marked),
+    !.
+program_of(earlier(Name), Earlier, _, Submission) :-
+    Submission = submission(Name, _, _, _),
+    memberchk(Submission, Earlier).
 
 %   All files as one text.
 
@@ -277,7 +475,7 @@ side_by_side(alike(A, B, Share, Clauses), Marked) :-
     forall(( member(Name, [A, B]),
              member(marked(name: Name, submission: Submission), Marked),
              whole_text(Submission, Text, Terms) ),
-           ( clause_lines(Terms, Clauses, Starts),
+           ( alike_lines(Terms, Clauses, Starts),
              findall(Line, member(term(_, Line), Terms), Lines),
              split_string(Text, "\n", "\r", Texts),
              format("<pre>", []),
@@ -306,105 +504,3 @@ paragraph(Text) :-
     format("<p>", []),
     text(Text),
     format("</p>~n", []).
-
-%   Text in HTML and XML, without what XML cannot have.
-
-text(Text) :-
-    format(string(String), "~w", [Text]),
-    string_codes(String, Codes0),
-    findall(Code,
-            ( member(Code0, Codes0),
-              ( Code0 < 32, Code0 =\= 10 -> Code = 32 ; Code = Code0 ) ),
-            Codes),
-    atom_codes(Clean, Codes),
-    xml_quote_attribute(Clean, Quoted, utf8),
-    write(Quoted).
-
-% ---------------- OTHER FORMS
-
-csv(exercise(_, _, _, Scores), Marked) :-
-    findall(Text, member(score(_, Text, _, _), Scores), Texts),
-    append([name, points, of|Texts], [remark], Head),
-    findall(Row,
-            (   csv_row(Head, Row)
-            ;   member(marked(Name, mark(_, P, Of, Its, _, Reason), _, _),
-                       Marked),
-                findall(E, member(score(_, E, _, _), Its), Earned),
-                append([Name, P, Of|Earned], [Reason], Cells),
-                csv_row(Cells, Row)
-            ),
-            Rows),
-    current_output(Out),
-    csv_write_stream(Out, Rows, []).
-
-%   A text that a spreadsheet would take for a formula begins with '.
-
-csv_row(Cells0, Row) :-
-    findall(Cell, ( member(Cell0, Cells0), csv_cell(Cell0, Cell) ), Cells),
-    Row =.. [row|Cells].
-
-csv_cell(Cell0, Cell) :-
-    (   atom(Cell0),
-        sub_atom(Cell0, 0, 1, _, First),
-        memberchk(First, [=, +, -, @])
-    ->  atom_concat('''', Cell0, Cell)
-    ;   Cell = Cell0
-    ).
-
-junit(exercise(_, Title, _, _), Marked) :-
-    format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>~n<testsuites>~n", []),
-    forall(member(marked(name: Name,
-                         mark: mark(scores: Scores, runs: Runs,
-                                    reason: Reason)),
-                  Marked),
-           ( length(Scores, Tests),
-             length(Runs, RunCount),
-             findall(x, ( member(score(_, _, _, M), Scores), M > 0 ), Bad),
-             length(Bad, Failures),
-             format("<testsuite name=\"", []), text(Name),
-             format("\" tests=\"~d\" failures=\"~d\">~n", [Tests, Failures]),
-             forall(member(score(Text, P, F, Missed), Scores),
-                    ( format("<testcase classname=\"", []), text(Title),
-                      format("\" name=\"", []), text(Text),
-                      (   Missed =:= 0
-                      ->  format("\"/>~n", [])
-                      ;   format("\"><failure message=\"~w of ~w points, \c
-                                  not in ~d of ~d runs\">",
-                                 [P, F, Missed, RunCount]),
-                          text(Reason),
-                          format("</failure></testcase>~n", [])
-                      ) )),
-             format("</testsuite>~n", []) )),
-    format("</testsuites>~n", []).
-
-json_marks(exercise(_, Title, _, _), Marked) :-
-    findall(json([ name=Name, points=P, of=Of, scores=ScoreObjects,
-                   runs=RunObjects, remark=Reason ]),
-            ( member(marked(Name, mark(_, P, Of, Scores, Runs, Reason), _, _),
-                     Marked),
-              findall(json([score=S, points=E, of=F, missed=M]),
-                      member(score(S, E, F, M), Scores), ScoreObjects),
-              findall(json([seed=Seed, points=E, end=End, seconds=Time]),
-                      ( member(run(Seed, E, Ended, Time), Runs),
-                        end_words(Ended, End) ),
-                      RunObjects) ),
-            Objects),
-    json(json([exercise=Title, marks=Objects])).
-
-%   The form that Gradescope's autograder reads: results.json of a submission.
-
-gradescope(mark(_, Points, _, Scores, Runs, Reason)) :-
-    length(Runs, Count),
-    findall(json([name=Text, score=E, max_score=F, output=Words]),
-            ( member(score(Text, E, F, Missed), Scores),
-              (   Missed =:= 0
-              ->  Words = ''
-              ;   format(atom(Words), 'not in ~d of ~d runs', [Missed, Count])
-              ) ),
-            Tests),
-    json(json([score=Points, output=Reason, tests=Tests])).
-
-json(Term) :-
-    current_output(Out),
-    json_write(Out, Term),
-    nl.

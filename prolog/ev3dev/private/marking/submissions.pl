@@ -1,5 +1,7 @@
 :- module(ev3dev_marking_submissions,
-          [ submissions/4               % +Paths, +Goal, -Submissions, -Left
+          [ submissions/4,              % +Paths, +Goal, -Submissions, -Left
+            can_be/2,                   % +Name0, -Name
+            decoded/2                   % +Octets, -Text
           ]).
 :- use_module('../files/directory', [new_directory/2]).
 :- use_module(read, [program_terms/2]).
@@ -520,7 +522,9 @@ split_names(Codes, Names) :-
     ;   Names = []
     ).
 
-%   UTF-8, UTF-16 with a mark at its beginning, else Latin-1.
+%!  decoded(+Octets, -Text) is det.
+%
+%   Octets are UTF-8, UTF-16 with a mark at its beginning, else Latin-1.
 
 decoded(Octets, Text) :-
     string_codes(Octets, Bytes),
@@ -542,3 +546,19 @@ pairs([A, B|Bytes], First, Second, [Code|Codes]) :-
     Code is A*First + B*Second,
     pairs(Bytes, First, Second, Codes).
 pairs(_, _, _, []).
+
+%!  can_be(+Name0, -Name) is det.
+%
+%   Name is Name0 as far as the locale can write it.
+
+can_be(Path0, Path) :-
+    atom_concat(/, Path0, Whole),
+    (   catch(is_absolute_file_name(Whole), error(_, _), fail)
+    ->  Path = Path0
+    ;   atom_codes(Path0, Codes0),
+        findall(Code,
+                ( member(Code0, Codes0),
+                  ( Code0 > 127 -> Code = 0'_ ; Code = Code0 ) ),
+                Codes),
+        atom_codes(Path, Codes)
+    ).
