@@ -190,8 +190,9 @@ call_command(mark, [Exercise|Named], Options) :-
         throw(usage("there are no programs (*.pl) in ~w", [Places]))
     ;   true
     ),
-    forall(member(mark(Name, Points, Of, _, _, Reason), Marks),
-           format("~w~t~24|~w of ~w~t~36|~w~n", [Name, Points, Of, Reason])),
+    forall(( member(mark(Name, Points, Of, _, _, Reason), Marks),
+             normalize_space(atom(Line), Name) ),
+           format("~w~t~24|~w of ~w~t~36|~w~n", [Line, Points, Of, Reason])),
     format("The reports: ~w~n", [Folder]).
 call_command(jog, [], Options) :-
     start_world_if_any(realtime, Options),

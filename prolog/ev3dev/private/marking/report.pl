@@ -134,13 +134,14 @@ page(Title, Body) :-
 
 style :-
     format(":root { color-scheme: light dark; font-family: sans-serif }~n\c
-            main { max-width: 60rem; margin: auto; padding: 0 1rem }~n\c
+            main { max-width: 60rem; margin: auto; padding: 0 1rem; \c
+            overflow-wrap: anywhere }~n\c
             table { border-collapse: collapse; margin: 1rem 0 }~n\c
             th, td { padding: .3rem .6rem; text-align: left; \c
             border-bottom: 1px solid #8886; vertical-align: top }~n\c
             td.n, th.n { text-align: right }~n\c
             .two { display: flex; gap: 1rem }~n\c
-            .two pre { flex: 1; overflow-x: auto }~n\c
+            .two pre { flex: 1; min-width: 0; overflow-x: auto }~n\c
             .bar { background: #36c; height: .7rem; min-width: 1px }~n\c
             .wide { overflow-x: auto }~n\c
             svg { max-width: 100%; height: auto; background: #fff }~n\c
@@ -149,7 +150,6 @@ style :-
             .histogram { text-anchor: middle }~n\c
             .sort th { cursor: pointer; \c
             text-decoration: underline dotted }~n\c
-            a { overflow-wrap: anywhere }~n\c
             mark { background: #fd68; color: inherit }~n\c
             input[type=range] { width: 100% }~n\c
             @media print { button, input { display: none }~n\c
@@ -296,7 +296,7 @@ histogram(Marked) :-
             Counts),
     msort([1|Counts], Sorted),
     append(_, [Most], Sorted),
-    format("<svg class=\"histogram\" viewBox=\"0 0 300 100\" role=\"img\" \c
+    format("<svg class=\"histogram\" viewBox=\"0 0 320 100\" role=\"img\" \c
             aria-label=\"How many programs have how much of the points\">~n",
            []),
     forall(nth0(N, Counts, Count),
@@ -312,7 +312,7 @@ histogram(Marked) :-
                         [Middle, Label, Count])
              ;   true ),
              format("<text x=\"~d\" y=\"93\">~d0</text>~n", [X, N]) )),
-    format("<text x=\"295\" y=\"93\">100 %</text>~n</svg>~n", []).
+    format("<text x=\"303\" y=\"93\">100 %</text>~n</svg>~n", []).
 
 missed_scores(Scores, Count, Marked) :-
     findall(Share-score(Text, Full, Mean, Missed),

@@ -549,16 +549,17 @@ pairs(_, _, _, []).
 
 %!  can_be(+Name0, -Name) is det.
 %
-%   Name is Name0 as far as the locale can write it.
+%   Name is Name0 as far as the locale can write it, in one line.
 
-can_be(Path0, Path) :-
-    atom_concat(/, Path0, Whole),
+can_be(Name0, Name) :-
+    atom_concat(/, Name0, Whole),
     (   catch(is_absolute_file_name(Whole), error(_, _), fail)
-    ->  Path = Path0
-    ;   atom_codes(Path0, Codes0),
-        findall(Code,
-                ( member(Code0, Codes0),
-                  ( Code0 > 127 -> Code = 0'_ ; Code = Code0 ) ),
-                Codes),
-        atom_codes(Path, Codes)
-    ).
+    ->  Last = 0x10ffff
+    ;   Last = 127
+    ),
+    atom_codes(Name0, Codes0),
+    findall(Code,
+            ( member(Code0, Codes0),
+              ( between(32, Last, Code0) -> Code = Code0 ; Code = 0'_ ) ),
+            Codes),
+    atom_codes(Name, Codes).
