@@ -93,6 +93,15 @@ test(a_folder_for_each_student_or_for_each_group,
      Found == [alice-['mine.pl'], x-['x.pl'], y-['y.pl']]) :-
     handed_in_at(['alice/mine.pl'-"start.", 'group/x.pl'-"start.", 'group/y.pl'-"start."],
                  ['/alice/', '/group'], Found, _).
+test(what_a_program_loads_beside_it, Bases == ['mine.pl', 'way.pl', 'far.pl']) :-
+    with_folder(Folder,
+        ( forall(member(Base-Text, [ 'mine.pl'-":- use_module(library(lists)).\n:- use_module(way).\nstart.",
+                                     'way.pl'-":- ['far.pl'], ensure_loaded('/etc/passwd').", 'far.pl'-"x.",
+                                     'other.pl'-"start." ]),
+                 ( atomic_list_concat([Folder, /, Base], File), written(File, utf8, Text) )),
+          atom_concat(Folder, '/mine.pl', Mine),
+          ev3dev_marking_submissions:own_submission(Mine, submission(mine, [], Files, '')) )),
+    findall(Base, member(file(Base, _, _, _), Files), Bases).
 test(several_programs_at_the_shell, Files == [e, 'a.pl', 'b.pl']) :-
     ev3dev_command_line:command_line([mark, e, 'a.pl', 'b.pl'], mark, Files, []).
 test(files_of_the_same_name_have_a_number, Found == [mine-['mine.pl'], 'mine 2'-['mine.pl']]) :-
@@ -230,6 +239,10 @@ test(a_worksheet_of_moodle_is_filled_in, Text == Expected) :-
          3 of 4: a &lt;b&gt; (not in 1 of 2 runs)<br>\r\n\c
          Participant 112,Bo Li,b@x.org,,0,100.00,-,\c
          0 of 4: a &lt;b&gt; (not in 1 of 2 runs)<br>Nothing was handed in.\r\n", Expected).
+test(who_is_absent_in_a_worksheet_has_a_name, true(sub_string(Text, _, _, _, "Bo Li,0,4,0,Nothing"))) :-
+    report(['Annie'-[id('12')]-3],
+           "Identifier,Full name,Grade,Maximum grade,Feedback comments\nParticipant 12,Anna Lee,,4,\n\c
+            Participant 13,Bo Li,,4,\n", [csv], ['marks.csv'], [Text]).
 test(a_worksheet_in_german, true(sub_string(Text, _, _, _, ",75,\"100,00\",,3 of 4"))) :-
     report(['Anna Lee'-[id('12')]-3],
            "\uFEFFID,Vollst\u00e4ndiger Name,Bewertung,Bestwertung,Zuletzt,Feedback\r\n\c

@@ -17,7 +17,7 @@
                 read_exercise/2, seed_list/2 ]).
 :- use_module(forms, [form/2]).
 :- use_module(participants, [read_participants/2, with_participants/4]).
-:- use_module(submissions, [can_be/2, submissions/4]).
+:- use_module(submissions, [can_be/2, own_submission/2, submissions/4]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
               [append/3, member/2, nth1/3, sum_list/2]).
@@ -174,8 +174,8 @@ earned_all(Marked) :-
 
 printed(Exercise, Read, Which, File, Options, Marked) :-
     seeds(Read, Which, Options, Seeds),
-    handed_in([File], Read, Submissions, _),
-    marked_files(Exercise, Read, Submissions, Seeds, Options, [Marked]),
+    own_submission(File, Submission),
+    marked_files(Exercise, Read, [Submission], Seeds, Options, [Marked]),
     Marked = marked(mark: mark(_, Points, Of, Scores, Runs, Reason),
                     results: Results),
     length(Runs, Count),

@@ -73,7 +73,7 @@ with_participants(participants(_, Rows), Submissions0, Submissions,
             ( member(submission(Name, Keys, _, _)-_, Pairs),
               \+ memberchk(row(_), Keys) ),
             Strangers),
-    ( member(_-cell(How), Pairs) -> true ; How = 1 ),
+    naming_column(Pairs, Rows, How),
     findall(submission(Name, [row(N)], [], 'Nothing was handed in.'),
             ( nth1(N, Rows, Row),
               \+ memberchk(N, Found),
@@ -81,6 +81,21 @@ with_participants(participants(_, Rows), Submissions0, Submissions,
             Absent),
     findall(One, member(One-_, Pairs), Present),
     append(Present, Absent, Submissions).
+
+%   The column of the other names; in a worksheet the second, unless it has no
+%   names, since the students are anonymous.
+
+naming_column(Pairs, Rows, How) :-
+    (   member(_-cell(How), Pairs)
+    ->  true
+    ;   member(_-number, Pairs),
+        findall(Name, member([_, Name|_], Rows), Names),
+        sort(Names, Sorted),
+        length(Names, Count),
+        length(Sorted, Count)
+    ->  How = 2
+    ;   How = 1
+    ).
 
 matched(Submission0, Rows, Submission, How) :-
     Submission0 = submission(Name, Keys, Files, Refused),

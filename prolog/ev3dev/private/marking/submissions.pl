@@ -1,5 +1,6 @@
 :- module(ev3dev_marking_submissions,
           [ submissions/4,              % +Paths, +Goal, -Submissions, -Left
+            own_submission/2,           % +File, -Submission
             can_be/2,                   % +Name0, -Name
             decoded/2                   % +Octets, -Text
           ]).
@@ -60,6 +61,39 @@ submissions(Paths, Goal, Submissions, Left) :-
     unique_names(Submissions0, Submissions),
     findall(One, ( member(_-Others, Pairs), member(One, Others) ), Left).
 
+%!  own_submission(+File, -Submission) is det.
+%
+%   The program File of the caller, and the files beside it that it loads.
+
+own_submission(File, submission(Name, [], Files, Refused)) :-
+    base(File, Base),
+    without_ending(Base, Name),
+    content(File, program, Content),
+    (   Content = file(_, Bytes, Text, Terms)
+    ->  Refused = '',
+        Files = [file(Base, Bytes, Text, Terms)|Others],
+        file_directory_name(File, Folder),
+        helpers([Terms], Folder, [Base], Others)
+    ;   Content = left(Refused),
+        Files = []
+    ).
+
+helpers(Programs, Folder, Seen, Files) :-
+    (   member(Terms, Programs),
+        member(term((:- Directive), _), Terms),
+        mentions(Directive, Name),
+        \+ sub_atom(Name, _, _, _, /),
+        member(Ending, ['', '.pl']),
+        atom_concat(Name, Ending, Base),
+        \+ memberchk(Base, ['', '.', '..'|Seen]),
+        path(Folder, Base, File),
+        exists_file(File),
+        content(File, program, file(_, Bytes, Text, Its))
+    ->  Files = [file(Base, Bytes, Text, Its)|Files1],
+        helpers([Its|Programs], Folder, [Base|Seen], Files1)
+    ;   Files = []
+    ).
+
 % ---------------- WHOSE IT IS
 
 %   handed(Place, Name, Keys, Items): what is in one Place is one submission,
@@ -67,19 +101,20 @@ submissions(Paths, Goal, Submissions, Left) :-
 %   there from the student's folder, Content is left(Why) or
 %   file(Kind, Bytes, Text, Terms), Kind `program` or `text`.
 
-handed(File, Index, _, Links, handed(Index, Name, [], Items)) :-
+handed(File, Index, _, _, handed(Index, Name, [], Items)) :-
     \+ exists_directory(File),
     !,
     base(File, Base),
     without_ending(Base, Name),
-    findall(Item, item(File, File, Base, Links, Item), Items).
+    content(File, program, Content),
+    Items = [item(File, Base, Content)].
 handed(Folder, Index, Goal, Links, handed(Index, Name, [], Items)) :-
     Goal \== none,
     entries(Folder, Links, Entries),
     findall(x,
             ( member(Base-File, Entries),
               \+ is_folder(File),
-              item(File, Folder, Base, Links,
+              item(File, Folder, Base,
                    item(_, _, file(program, _, _, Terms))),
               defines(Terms, Goal) ),
             [_]),
@@ -106,7 +141,7 @@ of_class(Folder, Index, Entries, Links,
     (   is_folder(File)
     ->  \+ hidden(Base),
         folder_items(File, Shown, '', Links, Items)
-    ;   findall(Item, item(File, Shown, Base, Links, Item), Items),
+    ;   findall(Item, item(File, Shown, Base, Item), Items),
         Items \== []
     ),
     (   moodle(Base, Place, Name, Keys)
@@ -369,7 +404,7 @@ folder_items(Folder, Shown, Path, Links, Items) :-
                   ->  \+ hidden(Base),
                       folder_items(File, Shown1, Path1, Links, Its),
                       member(Item, Its)
-                  ;   item(File, Shown1, Path1, Links, Item)
+                  ;   item(File, Shown1, Path1, Item)
                   ) ),
                 Items)
     ).
@@ -381,10 +416,10 @@ hidden(Base) :-
     !.
 hidden('__MACOSX').
 
-item(link, Shown, Path, _, item(Shown, Path, left(Why))) :-
+item(link, Shown, Path, item(Shown, Path, left(Why))) :-
     !,
     Why = 'It is a link, which is not followed.'.
-item(File, Shown, Path, _, item(Shown, Path, Content)) :-
+item(File, Shown, Path, item(Shown, Path, Content)) :-
     base(Path, Base),
     ending(Base, _, Ending),
     (   memberchk(Ending, [pl, pro, prolog]),
@@ -393,12 +428,22 @@ item(File, Shown, Path, _, item(Shown, Path, Content)) :-
     ;   \+ hidden(Base),
         Kind = text
     ),
-    (   memberchk(Ending, [zip, tar, gz, tgz, '7z', rar])
-    ->  Content = left('It is an archive: unpack it first.')
-    ;   Kind == text,
-        Ending \== txt
+    archives(Archives),
+    (   Kind == text,
+        \+ memberchk(Ending, [txt|Archives])
     ->  no_program(Why),
         Content = left(Why)
+    ;   content(File, Kind, Content)
+    ).
+
+archives([zip, tar, gz, tgz, '7z', rar]).
+
+content(File, Kind, Content) :-
+    base(File, Base),
+    ending(Base, _, Ending),
+    archives(Archives),
+    (   memberchk(Ending, Archives)
+    ->  Content = left('It is an archive: unpack it first.')
     ;   \+ exists_file(File)
     ->  Content = left('It cannot be read.')
     ;   size_file(File, Size),
