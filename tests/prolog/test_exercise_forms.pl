@@ -104,6 +104,16 @@ test(what_a_program_loads_beside_it, Bases == ['mine.pl', 'way.pl', 'far.pl']) :
     findall(Base, member(file(Base, _, _, _), Files), Bases).
 test(several_programs_at_the_shell, Files == [e, 'a.pl', 'b.pl']) :-
     ev3dev_command_line:command_line([mark, e, 'a.pl', 'b.pl'], mark, Files, []).
+test(all_that_a_shell_finds_in_a_class,
+     Found-Left == ['An X'-['m.pl'], 'Bo 3'-['m.pl'], 'Bo 4'-['x/m.pl'], zoe-['x/y/m.pl'], plain-['plain.pl']]-
+                   ['list.csv'-'Its name does not end in .pl.',
+                    'An X_1_assignsubmission_onlinetext_/o.html'-'Its name does not end in .pl.']) :-
+    Files = [ 'An X_1_assignsubmission_file_/m.pl'-"start.", 'An X_1_assignsubmission_onlinetext_/o.html'-"",
+              'Bo_3_assignsubmission_file_/m.pl'-"start.", 'Bo_4_assignsubmission_file_/x/m.pl'-"start.",
+              'zoe/x/y/m.pl'-"start.", 'list.csv'-"a", 'plain.pl'-"start." ],
+    handed_in_at(Files, [ '/list.csv', '/An X_1_assignsubmission_file_', '/An X_1_assignsubmission_onlinetext_',
+                          '/Bo_3_assignsubmission_file_/', '/Bo_4_assignsubmission_file_', '/zoe',
+                          '/plain.pl' ], Found, Left).
 test(files_of_the_same_name_have_a_number, Found == [mine-['mine.pl'], 'mine 2'-['mine.pl']]) :-
     handed_in_at(['a/mine.pl'-"start.", 'b/mine.pl'-"start."], ['/a/mine.pl', '/b/mine.pl'], Found, _).
 

@@ -59,7 +59,7 @@ option(seeds, 'A-B', 'seeds, as 1-10', [try, mark],
 option(page, 'PAGE', 'a file', [try], 'for the picture').
 option(out, 'FOLDER', 'a folder', [mark], 'for the reports: marks').
 option(format, 'FORMAT', 'a format', [mark],
-       'only html, csv, junit, json, gradescope, moodle or classroom').
+       'only html, csv, or another one of docs/marking.md').
 option(participants, 'LIST', 'a file', [mark],
        'the class: a grading worksheet, roster or other table').
 option(earlier, 'FOLDER', 'a folder', [mark],

@@ -36,8 +36,8 @@ The forms in which learning platforms deliver a class:
 %!  submissions(+Paths, +Goal, -Submissions, -Left) is det.
 %
 %   Paths are files, and folders with a file or a folder for each student.
-%   Where several folders are named, one in which one program defines Goal is
-%   itself a student's. Left is a list of left(Path, Why), of what is not
+%   Where several folders are named, one is itself a student's if one program
+%   in it defines Goal, or if Moodle named it. Left is a list of left(Path, Why), of what is not
 %   marked. No link is followed.
 
 submissions(Paths, Goal, Submissions, Left) :-
@@ -105,23 +105,32 @@ handed(File, Index, _, _, handed(Index, Name, [], Items)) :-
     \+ exists_directory(File),
     !,
     base(File, Base),
-    without_ending(Base, Name),
-    content(File, program, Content),
+    ending(Base, _, Ending),
+    archives(Archives),
+    (   memberchk(Ending, ['', pl, pro, prolog, txt|Archives])
+    ->  without_ending(Base, Name),
+        content(File, program, Content)
+    ;   Name = none,
+        no_program(Why),
+        Content = left(Why)
+    ),
     Items = [item(File, Base, Content)].
-handed(Folder, Index, Goal, Links, handed(Index, Name, [], Items)) :-
+handed(Folder, _, Goal, Links, handed(named-Place, Name, Keys, Items)) :-
     Goal \== none,
-    entries(Folder, Links, Entries),
-    findall(x,
-            ( member(Base-File, Entries),
-              \+ is_folder(File),
-              item(File, Folder, Base,
-                   item(_, _, file(program, _, _, Terms))),
-              defines(Terms, Goal) ),
-            [_]),
-    !,
     absolute_file_name(Folder, Absolute),
-    file_base_name(Absolute, Name),
-    folder_items(Folder, Folder, '', Links, Items).
+    file_base_name(Absolute, Base),
+    folder_items(Folder, Folder, '', Links, Items),
+    (   moodle(Base, Place, Name, Keys)
+    ->  true
+    ;   findall(x,
+                ( member(item(_, _, file(_, _, _, Terms)), Items),
+                  defines(Terms, Goal) ),
+                [_])
+    ->  Place = Folder,
+        Name = Base,
+        Keys = []
+    ),
+    !.
 handed(Folder, Index, _, Links, Handed) :-
     entries(Folder, Links, Entries),
     (   Entries == [unreadable]
