@@ -49,7 +49,7 @@ unfair(Folder, Exercise, Options, Unfair) :-
             Programs),
     findall(File, member(_-File, Programs), Files),
     call_cleanup(
-        exercise_mark(Exercise, Files, Options, Marks),
+        once(exercise_mark(Exercise, Files, Options, Marks)),
         delete_directory_and_contents(Directory)),
     findall(earns(Name, Points, Deserved, Why, Runs),
             ( member(mark(Name, Points, _, _, Runs, _), Marks),
