@@ -38,9 +38,10 @@ read_participants(File, participants(Header, Rows)) :-
                 ( member(Cells, Rows0), \+ Cells = [''] ),
                 [Row1|Rest])
     ->  Rows = [Row1|Rest]
-    ;   throw_error(domain_error(participants, File), _,
-                    'this must be a table with a heading and a row for each \c
-                     student')
+    ;   format(atom(Text1),
+               '~w must be a table with a heading and a row for each student',
+               [File]),
+        throw_error(domain_error(participants, File), _, Text1)
     ).
 
 %   The one that is most frequent in the first line.

@@ -37,8 +37,8 @@ The forms in which learning platforms deliver a class:
 %
 %   Paths are files, and folders with a file or a folder for each student.
 %   Where several folders are named, one is itself a student's if one program
-%   in it defines Goal, or if Moodle named it. Left is a list of left(Path, Why), of what is not
-%   marked. No link is followed.
+%   in it defines Goal, or if Moodle named it. Left is a list of
+%   left(Path, Why), of what is not marked. No link is followed.
 
 submissions(Paths, Goal, Submissions, Left) :-
     findall(Path, ( member(Path, Paths), exists_directory(Path) ), Folders),
