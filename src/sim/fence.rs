@@ -89,7 +89,8 @@ impl Fence {
                     if at > end {
                         return Ok(State::Over);
                     }
-                    desk.answer(&mut simulation.machine());
+                    let next = simulation.next_act().unwrap_or(Duration::MAX);
+                    desk.answer(&mut simulation.machine(), next.min(end));
                 }
             }
         }
@@ -144,15 +145,18 @@ natives! {
         into_prolog_result(fences.get_mut(&brick_number()).is_none_or(Fence::is_silent))
     }
 
-    /// process_usage_(+Process, -Seconds, -Rest): how much time of a processor that process and
-    /// all that descend from it have used, and how often they have left one if all of them sleep,
-    /// else `awake`. Fails if there is no such process.
-    semidet fn "process_usage_"(_context, process, seconds, rest) {
+    /// process_usage_(+Process, -Seconds, -Rest, -Threads, -Bytes): how much time of a processor
+    /// that process and all that descend from it have used, how often they have left one if all of
+    /// them sleep, else `awake`, and how many threads and bytes of memory they have. Fails if there
+    /// is no such process.
+    semidet fn "process_usage_"(_context, process, seconds, rest, threads, bytes) {
         let process = u32::try_from(process.get::<i64>()?).unwrap_or(0);
         let Some(usage) = ev3_os::processes::usage(process) else {
             return Err(PrologError::Failure);
         };
         seconds.unify(usage.time.as_secs_f64())?;
+        threads.unify(i64::try_from(usage.threads).unwrap_or(i64::MAX))?;
+        bytes.unify(i64::try_from(usage.memory).unwrap_or(i64::MAX))?;
         match usage.rest {
             Some(switches) => rest.unify(switches),
             None => unify_atom(rest, "awake"),

@@ -19,16 +19,21 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The words before a letter: whose it is, who sleeps, and its length in bytes.
+/// The words before a letter: whose it is, who sleeps, its length in bytes, and how much of the
+/// program's next letter is written.
 const HEAD: usize = 16;
 const WHOSE: usize = 0;
 const SLEEPS: usize = 1;
 const LENGTH: usize = 3;
+const DRAFT: usize = 4;
 
 /// Room for a letter, in words: a screen, and more.
 const ROOM: usize = (1 << 16) + 64;
 
 const BYTES: usize = 4 * (HEAD + ROOM);
+
+/// The most bytes of a draft. A screen comes behind it.
+const MOST_DRAFTED: u32 = 1 << 16;
 
 /// How often who waits looks again before it sleeps: a tenth of a millisecond or two.
 const LOOKS: u32 = 100;
@@ -70,6 +75,8 @@ pub struct Mailbox {
     words: NonNull<AtomicU32>,
     /// How often this side does not give the processor away any more.
     shy: AtomicU32,
+    /// How many bytes of the program's next letter this side has written, or has read.
+    drafted: AtomicU32,
 }
 
 // Safety: all access is by atomic words.
@@ -104,7 +111,8 @@ impl Mailbox {
             mmap(std::ptr::null_mut(), BYTES, access, MapFlags::SHARED, &file, 0)?
         };
         let words = NonNull::new(words.cast()).ok_or(io::ErrorKind::OutOfMemory)?;
-        Ok(Mailbox { file, words, shy: AtomicU32::new(0) })
+        let [shy, drafted] = [const { AtomicU32::new(0) }; 2];
+        Ok(Mailbox { file, words, shy, drafted })
     }
 
     /// Sends some bytes, and with them this mailbox.
@@ -150,19 +158,53 @@ impl Mailbox {
         unsafe { self.words.add(index).as_ref() }
     }
 
+    /// Writes bytes into the mailbox behind so many, a multiple of 4; how many there are then.
+    /// `None` if there is no room.
+    fn put(&self, behind: u32, bytes: &[u8]) -> Option<u32> {
+        let length = behind.checked_add(u32::try_from(bytes.len()).ok()?)?;
+        if length as usize > 4 * ROOM {
+            return None;
+        }
+        for (index, part) in bytes.chunks(4).enumerate() {
+            let mut word = [0; 4];
+            word[..part.len()].copy_from_slice(part);
+            let place = HEAD + behind as usize / 4 + index;
+            self.word(place).store(u32::from_le_bytes(word), Ordering::Relaxed);
+        }
+        Some(length)
+    }
+
+    /// Writes the program's next letter up to here, a multiple of 4 bytes, and does not send it
+    /// yet: the host may read it by [`Mailbox::draft`]. `false` if there is no room.
+    pub fn write_draft(&self, part: &[u8]) -> bool {
+        let length = self.put(self.drafted.load(Ordering::Relaxed), part);
+        let length = length.filter(|length| *length <= MOST_DRAFTED);
+        if let Some(length) = length {
+            self.drafted.store(length, Ordering::Relaxed);
+            self.word(DRAFT).store(length, Ordering::SeqCst);
+        }
+        length.is_some()
+    }
+
+    /// What the host has not read yet of the program's next letter.
+    pub fn draft(&self) -> Vec<u8> {
+        let part = self.part_until(self.word(DRAFT).load(Ordering::SeqCst));
+        let read = u32::try_from(part.len()).unwrap_or(0) / 4 * 4;
+        self.drafted.fetch_add(read, Ordering::Relaxed);
+        part
+    }
+
     /// Leaves a letter for the other side; whether that sleeps, and is to be woken. `None` if the
     /// letter is too long.
     pub fn post(&self, from: Side, letter: &[u8]) -> Option<bool> {
-        let length = u32::try_from(letter.len()).ok()?;
-        if letter.len() > 4 * ROOM {
-            return None;
-        }
-        for (index, part) in letter.chunks(4).enumerate() {
-            let mut bytes = [0; 4];
-            bytes[..part.len()].copy_from_slice(part);
-            self.word(HEAD + index).store(u32::from_le_bytes(bytes), Ordering::Relaxed);
-        }
+        let drafted = self.drafted.swap(0, Ordering::Relaxed);
+        let behind = match from {
+            Side::Program => drafted,
+            Side::Host => 0,
+        };
+        let length = self.put(behind, letter)?;
         self.word(LENGTH).store(length, Ordering::Relaxed);
+        self.word(DRAFT).store(0, Ordering::SeqCst);
         self.word(WHOSE).store(from.sign(), Ordering::SeqCst);
         let sleeps = self.word(SLEEPS + from.other() as usize);
         Some(sleeps.swap(0, Ordering::SeqCst) != 0)
@@ -194,16 +236,21 @@ impl Mailbox {
         self.has_come(to) && sleeps.swap(0, Ordering::SeqCst) != 0
     }
 
-    /// A copy of the letter that is there, or of as much as there is room for.
+    /// A copy of the letter that is there, or of as much as there is room for; without what was
+    /// read of it as a draft.
     pub fn letter(&self) -> Vec<u8> {
-        let length = self.word(LENGTH).load(Ordering::Relaxed) as usize;
-        let length = length.min(4 * ROOM);
-        let mut letter = Vec::with_capacity(length + 4);
-        for index in 0..length.div_ceil(4) {
-            letter.extend(self.word(HEAD + index).load(Ordering::Relaxed).to_le_bytes());
+        self.part_until(self.word(LENGTH).load(Ordering::Relaxed))
+    }
+
+    fn part_until(&self, end: u32) -> Vec<u8> {
+        let end = (end as usize).min(4 * ROOM);
+        let from = self.drafted.load(Ordering::Relaxed) as usize;
+        let mut part = Vec::with_capacity(end.saturating_sub(from) + 4);
+        for index in from / 4..end.div_ceil(4) {
+            part.extend(self.word(HEAD + index).load(Ordering::Relaxed).to_le_bytes());
         }
-        letter.truncate(length);
-        letter
+        part.truncate(end.saturating_sub(from));
+        part
     }
 }
 
@@ -253,6 +300,34 @@ mod tests {
         assert_eq!(program.post(Side::Program, b"?"), Some(true));
         assert_eq!(program.post(Side::Program, b"?"), Some(false));
         assert!(host.wait(Side::Host));
+    }
+
+    #[test]
+    fn a_draft_is_read_once() {
+        let (program, host) = pair();
+        assert!(program.write_draft(b"1234"));
+        assert_eq!(host.draft(), b"1234");
+        assert!(program.write_draft(b"5678"));
+        assert_eq!(host.draft(), b"5678");
+        assert!(host.draft().is_empty());
+        assert!(program.write_draft(b"abcd"));
+        let _ = program.post(Side::Program, b"!");
+        assert!(host.draft().is_empty());
+        assert_eq!(host.letter(), b"abcd!");
+        let _ = host.post(Side::Host, b"?");
+        assert_eq!(program.letter(), b"?");
+        assert!(program.write_draft(b"next"));
+        assert_eq!(host.draft(), b"next");
+    }
+
+    #[test]
+    fn a_draft_without_an_end() {
+        let (program, host) = pair();
+        while program.write_draft(&[0; 32]) {}
+        program.word(DRAFT).store(u32::MAX, Ordering::Relaxed);
+        assert_eq!(host.draft().len(), 4 * ROOM);
+        assert!(host.draft().is_empty());
+        assert!(host.letter().is_empty());
     }
 
     #[test]

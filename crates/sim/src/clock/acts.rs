@@ -43,6 +43,11 @@ impl PeriodicActs {
         locked(&self.acts).due.push(Due { at: now.saturating_add(period), period, act });
     }
 
+    /// When the next act is due at the earliest.
+    pub(super) fn next(&self) -> Option<Duration> {
+        locked(&self.acts).due.iter().map(|due| due.at).min()
+    }
+
     /// Whether this thread runs an act. Its reads then take no time.
     pub(super) fn is_acting(&self) -> bool {
         self.is_any.load(Ordering::Relaxed)

@@ -345,6 +345,11 @@ impl Simulation {
         self.acts.add(now, period, act);
     }
 
+    /// When the next act is due, if there is one.
+    pub fn next_act(&self) -> Option<Duration> {
+        self.acts.next()
+    }
+
     /// Whether this thread runs an act just now.
     pub fn is_acting(&self) -> bool {
         self.acts.is_acting()

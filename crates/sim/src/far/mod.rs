@@ -12,7 +12,7 @@ pub mod wire;
 
 use crate::files::attr::Access;
 use crate::machine::dev::DevDescriptor;
-use crate::machine::tree::NodeId;
+use crate::machine::tree::{NodeId, Tree};
 use crate::machine::{Machine, Written};
 use ev3_os::linux::Errno;
 use std::time::Duration;
@@ -27,7 +27,8 @@ pub(crate) const WRITE_TAKES: Duration = Duration::from_micros(100);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Kind {
-    /// Nothing but that time passes.
+    /// Nothing but that time passes; the number is the time in nanoseconds until which nothing else
+    /// happens, either.
     Pass,
     /// The directory of this path; the answer has lines of an inode number and a name.
     List,
@@ -35,10 +36,12 @@ pub enum Kind {
     OpenToRead,
     /// The same for writing.
     OpenToWrite,
-    /// `count` bytes of file `number` from `offset` on.
+    /// `count` bytes of file `number` from `offset` on; the answer's number is the time in
+    /// nanoseconds until which this holds, unless the program changes something.
     Read,
     /// Bytes into file `number` from `offset` on; the answer's number is for how many nanoseconds
-    /// the call blocks.
+    /// the call blocks. If the same write does the same again, its bytes are as the number of
+    /// [`Kind::Pass`].
     Write,
     /// The device file of this path; its number, and as bytes its length, if it has one.
     OpenDevice,
@@ -106,6 +109,8 @@ pub struct Question<'a> {
     pub at: Duration,
     /// Whether it takes no time, as in an act.
     pub is_free: bool,
+    /// Whether the program knows the answer, and wants none.
+    pub is_known: bool,
     /// See [`Kind`].
     pub number: u64,
     /// See [`Kind`].
@@ -119,7 +124,9 @@ pub struct Question<'a> {
 impl Question<'_> {
     /// One without numbers, whose time the clock sets.
     pub(crate) fn of(kind: Kind, bytes: &[u8]) -> Question<'_> {
-        Question { kind, at: Duration::ZERO, is_free: false, number: 0, offset: 0, count: 0, bytes }
+        let [is_free, is_known] = [false; 2];
+        let at = Duration::ZERO;
+        Question { kind, at, is_free, is_known, number: 0, offset: 0, count: 0, bytes }
     }
 }
 
@@ -164,6 +171,86 @@ pub trait Far: Send + Sync {
     fn ask(&self, question: &Question) -> Answer;
 }
 
+/// What a program knows without asking. Until a moment that the host says nothing happens there but
+/// ticks of the machine, so time may pass; a read shows the same until its tick is over; and what a
+/// motor took, it takes again.
+#[derive(Debug, Default)]
+pub struct Kept {
+    until: Duration,
+    /// Number, offset and count; how long it holds; and the answer.
+    reads: Vec<([u64; 3], Duration, Answer)>,
+    /// Number, offset and bytes.
+    writes: Vec<(u64, u32, Vec<u8>)>,
+}
+
+impl Kept {
+    fn read(question: &Question) -> [u64; 3] {
+        [question.number, question.offset.into(), question.count.into()]
+    }
+
+    /// The answer to this question, if it is known.
+    pub fn answer(&mut self, question: &Question) -> Option<Answer> {
+        let &Question { kind, at, number, offset, bytes, .. } = question;
+        match kind {
+            Kind::Read => {
+                let key = Self::read(question);
+                let mut reads = self.reads.iter();
+                let read = reads.find(|(its, until, _)| *its == key && at < *until)?;
+                Some(read.2.clone())
+            }
+            Kind::Pass => (at < self.until).then(Answer::default),
+            Kind::Write => {
+                let was = |write: &&(u64, u32, Vec<u8>)| {
+                    write.0 == number && write.1 == offset && write.2 == bytes
+                };
+                self.writes.iter().find(was).filter(|_| at < self.until)?;
+                self.forget_reads(number);
+                Some(Answer::default())
+            }
+            _ => None,
+        }
+    }
+
+    /// Those of the device of a file.
+    fn forget_reads(&mut self, number: u64) {
+        let owner = Tree::owner(NodeId(number));
+        self.reads.retain(|(its, ..)| Tree::owner(NodeId(its[0])) != owner);
+    }
+
+    /// This was asked and answered.
+    pub fn note(&mut self, question: &Question, answer: &Answer) {
+        let &Question { kind, at, number, offset, bytes, .. } = question;
+        match kind {
+            Kind::Read => {
+                self.reads.retain(|(_, until, _)| *until > at);
+                if answer.error == 0 {
+                    let until = Duration::from_nanos(answer.number);
+                    self.reads.push((Self::read(question), until, answer.clone()));
+                }
+            }
+            Kind::Pass => self.nothing_happens_until(answer.number),
+            Kind::Write => match answer.number_in_bytes() {
+                Some(until) => {
+                    self.nothing_happens_until(until);
+                    self.forget_reads(number);
+                    self.writes.push((number, offset, bytes.to_vec()));
+                }
+                None => self.reads.clear(),
+            },
+            Kind::Buttons => {}
+            _ => self.reads.clear(),
+        }
+    }
+
+    fn nothing_happens_until(&mut self, nanos: u64) {
+        let until = Duration::from_nanos(nanos);
+        if self.until != until {
+            self.until = until;
+            self.writes.clear();
+        }
+    }
+}
+
 /// How many accesses that take no time a program may have, and in each millisecond as many more.
 const FREE: u64 = 2000;
 const FREE_IN_A_MS: u64 = 4;
@@ -199,10 +286,29 @@ impl Host {
         Ok(())
     }
 
-    /// Answers. No time passes.
-    pub fn answer(&mut self, machine: &mut Machine, question: &Question) -> Answer {
-        self.answered(machine, question)
-            .unwrap_or_else(|Errno(error)| Answer { error, ..Answer::default() })
+    /// Answers. No time passes. Nothing happens here until `until` but ticks of the machine, and
+    /// what the program does.
+    pub fn answer(
+        &mut self,
+        machine: &mut Machine,
+        question: &Question,
+        until: Duration,
+    ) -> Answer {
+        let node = NodeId(question.number);
+        let mut answer = self
+            .answered(machine, question)
+            .unwrap_or_else(|Errno(error)| Answer { error, ..Answer::default() });
+        match question.kind {
+            Kind::Read if !machine.is_binary(node) => {
+                answer.number = nanos(until.min(machine.next_tick()));
+            }
+            Kind::Pass => answer.number = nanos(until),
+            Kind::Write if answer == Answer::default() && machine.is_steady(node) => {
+                answer.bytes = nanos(until).to_le_bytes().to_vec();
+            }
+            _ => {}
+        }
+        answer
     }
 
     fn answered(&mut self, machine: &mut Machine, question: &Question) -> Result<Answer, Errno> {

@@ -1,14 +1,18 @@
 //! Questions and answers through a socket between two processes of one machine.
 //!
 //! Numbers are little-endian. The host begins with [`HELLO`] and its time in nanoseconds. A
-//! question is 32 bytes and its text: the text's length (4 bytes), kind (1), whether it takes no
-//! time (1), nothing (2), its moment in nanoseconds (8), number (8), offset (4), count (4). An
+//! question is 32 bytes and its text, up to a multiple of 4: the text's length (4 bytes), kind (1), whether it takes no
+//! time (1), whether the answer is known (1), nothing (1), its moment in nanoseconds (8), number (8), offset (4), count (4). An
 //! answer is 16 bytes and its bytes: their length (4), error (4), number (8).
 //!
 //! With its greeting the host sends a [`Mailbox`]. A program that takes it leaves its questions
 //! there and finds the answers, which is several times as fast; then the socket is only for
 //! waking: the host by [`WAKE`], the program by an empty answer.
-use super::{Answer, Far, Host, Kind, Question, nanos};
+//!
+//! A question whose answer the program knows ([`Kept`]) is written into its next letter, so that the
+//! machine has it at its moment, and nobody waits for it. The last question of a letter wants an
+//! answer. If none comes, as the program computes or has ended, the host reads what is written.
+use super::{Answer, Far, Host, Kept, Kind, Question, nanos};
 use crate::machine::Machine;
 use ev3_os::locked;
 use ev3_os::mailbox::{Mailbox, Side, readable};
@@ -46,7 +50,7 @@ fn part<const N: usize>(bytes: &[u8], from: usize) -> [u8; N] {
 /// The program's end.
 #[derive(Debug)]
 pub struct Line {
-    stream: Mutex<UnixStream>,
+    stream: Mutex<(UnixStream, Kept)>,
     mailbox: Option<Mailbox>,
     /// Called once there are no more answers.
     lost: fn(),
@@ -67,42 +71,63 @@ impl Line {
             return Err(io::Error::new(ErrorKind::InvalidData, "that is no host of a fence"));
         }
         let now = Duration::from_nanos(u64::from_le_bytes(part(&hello, 8)));
-        Ok((Line { stream: Mutex::new(stream), mailbox, lost }, now))
+        Ok((Line { stream: Mutex::new((stream, Kept::default())), mailbox, lost }, now))
     }
 
     fn exchanged(&self, question: &Question) -> io::Result<Answer> {
-        let mut frame = Vec::with_capacity(HEAD + question.bytes.len());
-        let length = u32::try_from(question.bytes.len()).map_err(io::Error::other)?;
-        frame.extend(length.to_le_bytes());
-        frame.extend([question.kind as u8, u8::from(question.is_free), 0, 0]);
-        frame.extend(nanos(question.at).to_le_bytes());
-        frame.extend(question.number.to_le_bytes());
-        frame.extend(question.offset.to_le_bytes());
-        frame.extend(question.count.to_le_bytes());
-        frame.extend(question.bytes);
-        let mut stream = locked(&self.stream);
-        if let Some(mailbox) = &self.mailbox {
-            return by_mail(mailbox, &mut stream, &frame);
+        let mut guard = locked(&self.stream);
+        let (stream, kept) = &mut *guard;
+        let known = self.mailbox.as_ref().and_then(|mailbox| {
+            let answer = kept.answer(question)?;
+            let question = Question { is_known: true, ..*question };
+            mailbox.write_draft(&framed(&question).ok()?).then_some(answer)
+        });
+        if let Some(answer) = known {
+            return Ok(answer);
         }
-        stream.write_all(&frame)?;
-        // Most answers come whole in one read.
-        let mut head = [0; 256];
-        let mut got = 0;
-        while got < 16 {
-            match stream.read(&mut head[got..]) {
-                Ok(0) => return Err(ErrorKind::UnexpectedEof.into()),
-                Ok(count) => got += count,
-                Err(error) if error.kind() == ErrorKind::Interrupted => {}
-                Err(error) => return Err(error),
-            }
-        }
-        let length = u32::from_le_bytes(part(&head, 0)) as usize;
-        let mut bytes = head[16..got].to_vec();
-        let here = bytes.len().min(length);
-        bytes.resize(length, 0);
-        stream.read_exact(&mut bytes[here..])?;
-        Ok(answer_of(&head, bytes))
+        let frame = framed(question)?;
+        let answer = match &self.mailbox {
+            Some(mailbox) => by_mail(mailbox, stream, &frame)?,
+            None => by_socket(stream, &frame)?,
+        };
+        kept.note(question, &answer);
+        Ok(answer)
     }
+}
+
+fn framed(question: &Question) -> io::Result<Vec<u8>> {
+    let mut frame = Vec::with_capacity(HEAD + question.bytes.len());
+    let length = u32::try_from(question.bytes.len()).map_err(io::Error::other)?;
+    frame.extend(length.to_le_bytes());
+    frame.extend([question.kind as u8, question.is_free.into(), question.is_known.into(), 0]);
+    frame.extend(nanos(question.at).to_le_bytes());
+    frame.extend(question.number.to_le_bytes());
+    frame.extend(question.offset.to_le_bytes());
+    frame.extend(question.count.to_le_bytes());
+    frame.extend(question.bytes);
+    frame.resize(frame.len().next_multiple_of(4), 0);
+    Ok(frame)
+}
+
+fn by_socket(stream: &mut UnixStream, frame: &[u8]) -> io::Result<Answer> {
+    stream.write_all(frame)?;
+    // Most answers come whole in one read.
+    let mut head = [0; 256];
+    let mut got = 0;
+    while got < 16 {
+        match stream.read(&mut head[got..]) {
+            Ok(0) => return Err(ErrorKind::UnexpectedEof.into()),
+            Ok(count) => got += count,
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    let length = u32::from_le_bytes(part(&head, 0)) as usize;
+    let mut bytes = head[16..got].to_vec();
+    let here = bytes.len().min(length);
+    bytes.resize(length, 0);
+    stream.read_exact(&mut bytes[here..])?;
+    Ok(answer_of(&head, bytes))
 }
 
 fn answer_of(head: &[u8], bytes: Vec<u8>) -> Answer {
@@ -203,9 +228,13 @@ impl Desk {
                 }
             }
             if !readable(&self.stream, within)? {
+                if self.has_draft() {
+                    continue;
+                }
                 return Ok(Next::Idle);
             }
             match self.stream.read(&mut buffer) {
+                Ok(0) if self.has_draft() => {}
                 Ok(0) => return Ok(Next::Gone),
                 Ok(count) => {
                     self.received.extend(&buffer[..count]);
@@ -215,6 +244,7 @@ impl Desk {
                 }
                 Err(error) => match error.kind() {
                     ErrorKind::Interrupted => {}
+                    ErrorKind::ConnectionReset if self.has_draft() => {}
                     ErrorKind::ConnectionReset => return Ok(Next::Gone),
                     _ => return Err(error),
                 },
@@ -222,10 +252,20 @@ impl Desk {
         }
     }
 
+    /// Takes over what is written of the next letter, if there is something.
+    fn has_draft(&mut self) -> bool {
+        if let Some(mailbox) = self.mailbox.as_ref().filter(|_| self.received.is_empty()) {
+            self.received = mailbox.draft();
+        }
+        !self.received.is_empty()
+    }
+
     /// Answers the question that was received, if one was. A program that is gone gets nothing.
-    pub fn answer(&mut self, machine: &mut Machine) {
+    /// `until` is as for [`Host::answer`].
+    pub fn answer(&mut self, machine: &mut Machine, until: Duration) {
         let Ok(Some((question, length))) = parsed(&self.received) else { return };
-        let Answer { error, number, bytes } = self.host.answer(machine, &question);
+        let is_known = question.is_known;
+        let Answer { error, number, bytes } = self.host.answer(machine, &question, until);
         let count = u32::try_from(bytes.len()).unwrap_or(0);
         let mut frame = Vec::with_capacity(16 + bytes.len());
         frame.extend(count.to_le_bytes());
@@ -234,6 +274,9 @@ impl Desk {
         frame.extend(bytes);
         self.received.drain(..length);
         self.is_admitted = false;
+        if is_known {
+            return;
+        }
         if let Some(mailbox) = self.mailbox.as_ref().filter(|_| self.by_mail) {
             self.received.clear();
             self.by_mail = false;
@@ -257,10 +300,12 @@ fn parsed(received: &[u8]) -> Result<Option<(Question<'_>, usize)>, &'static str
     if length > MOST || (count > MOST && kind != Kind::Ioctl) {
         return Err(NO_QUESTION);
     }
-    let end = HEAD + length as usize;
+    let end = HEAD + (length as usize).next_multiple_of(4);
     let Some(bytes) = received.get(HEAD..end) else { return Ok(None) };
+    let bytes = &bytes[..length as usize];
     let at = Duration::from_nanos(at);
-    Ok(Some((Question { kind, at, is_free: head[5] != 0, number, offset, count, bytes }, end)))
+    let [is_free, is_known] = [head[5] != 0, head[6] != 0];
+    Ok(Some((Question { kind, at, is_free, is_known, number, offset, count, bytes }, end)))
 }
 
 const NO_QUESTION: &str = "that was no question";
@@ -308,6 +353,90 @@ mod tests {
         assert_eq!(desk.hear(WITHIN).unwrap(), Next::Asked(Duration::ZERO));
     }
 
+    /// The moments of all reads that the machine has had of a program that reads at these ones, and
+    /// then does that with its line.
+    fn reads<T: Send + 'static>(moments: &'static [u64], end: fn(Line) -> T) -> Vec<u64> {
+        let (program, host) = UnixStream::pair().unwrap();
+        let mut machine = Machine::bare().unwrap();
+        let mut desk = Desk::new(host, Duration::ZERO).unwrap();
+        let program = thread::spawn(move || {
+            let (line, _) = Line::new(program, || ()).unwrap();
+            let path = b"power_supply/lego-ev3-battery/voltage_now";
+            let number = line.ask(&Question::of(Kind::OpenToRead, path)).number;
+            for at in moments {
+                let at = Duration::from_micros(*at);
+                let question = Question { at, number, count: 99, ..Question::of(Kind::Read, &[]) };
+                assert_eq!(line.ask(&question).error, 0);
+            }
+            end(line)
+        });
+        let mut asked = Vec::new();
+        while asked.len() <= moments.len() {
+            match desk.hear(SOON).unwrap() {
+                Next::Asked(at) => {
+                    machine.step(at.saturating_sub(machine.now()));
+                    asked.push(u64::try_from(at.as_micros()).unwrap());
+                    desk.answer(&mut machine, Duration::from_micros(5100));
+                }
+                Next::Idle => {}
+                _ => break,
+            }
+        }
+        drop(program.join().unwrap());
+        asked.split_off(1)
+    }
+
+    #[test]
+    fn the_machine_has_each_read_at_its_moment() {
+        let moments = &[500, 1000, 1500, 2000, 2500, 4500, 5000, 5500, 6000, 6500, 7000];
+        for count in 1..=moments.len() {
+            assert_eq!(reads(&moments[..count], drop), moments[..count]);
+            assert_eq!(reads(&moments[..count], |line| line), moments[..count]);
+        }
+    }
+
+    /// A question at a moment in microseconds.
+    fn question(kind: Kind, micros: u64, number: u64) -> Question<'static> {
+        Question { at: Duration::from_micros(micros), number, ..Question::of(kind, b"10") }
+    }
+
+    fn until(micros: u64) -> Answer {
+        Answer { number: micros * 1000, ..Answer::default() }
+    }
+
+    #[test]
+    fn an_answer_holds_for_a_tick_unless_something_changes() {
+        let mut kept = Kept::default();
+        let answer = Answer { bytes: vec![1], ..until(2000) };
+        kept.note(&question(Kind::Read, 500, 1), &answer);
+        assert_eq!(kept.answer(&question(Kind::Read, 1999, 1)), Some(answer));
+        assert_eq!(kept.answer(&question(Kind::Read, 2000, 1)), None);
+        assert_eq!(kept.answer(&question(Kind::Read, 1999, 2)), None);
+        kept.note(&question(Kind::Pass, 600, 0), &until(0));
+        assert!(kept.answer(&question(Kind::Read, 1999, 1)).is_some());
+        kept.note(&question(Kind::Write, 700, 2), &Answer::default());
+        assert_eq!(kept.answer(&question(Kind::Read, 1999, 1)), None);
+    }
+
+    #[test]
+    fn what_a_motor_took_it_takes_again_until_something_happens() {
+        let mut kept = Kept::default();
+        let motor = 5 << 32;
+        let [read, write] = [Kind::Read, Kind::Write].map(|kind| question(kind, 500, motor));
+        assert_eq!(kept.answer(&write), None);
+        let taken = Answer { bytes: 100_000_000_u64.to_le_bytes().to_vec(), ..Answer::default() };
+        kept.note(&write, &taken);
+        assert_eq!(kept.answer(&Question { bytes: b"11", ..write }), None);
+        kept.note(&read, &until(2000));
+        assert_eq!(kept.answer(&write), Some(Answer::default()));
+        assert_eq!(kept.answer(&read), None);
+        assert!(kept.answer(&question(Kind::Pass, 99_999, 0)).is_some());
+        assert_eq!(kept.answer(&question(Kind::Pass, 100_000, 0)), None);
+        assert_eq!(kept.answer(&question(Kind::Write, 100_000, motor)), None);
+        kept.note(&question(Kind::Pass, 100_000, 0), &until(200_000));
+        assert_eq!(kept.answer(&question(Kind::Write, 100_000, motor)), None);
+    }
+
     #[test]
     fn one_that_never_reads_is_gone() {
         let (mut program, host) = UnixStream::pair().unwrap();
@@ -316,7 +445,7 @@ mod tests {
         let asks = thread::spawn(move || while program.write_all(&[0; HEAD]).is_ok() {});
         let mut answered = 0;
         while desk.hear(WITHIN).unwrap() != Next::Gone {
-            desk.answer(&mut machine);
+            desk.answer(&mut machine, Duration::MAX);
             answered += 1;
         }
         assert!(answered > 10);

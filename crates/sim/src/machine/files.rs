@@ -85,6 +85,12 @@ impl Machine {
         Ok(text)
     }
 
+    /// True if a write there has the same outcome whenever the same bytes are written, at once: all
+    /// those of a tacho motor, as long as it is plugged in.
+    pub(crate) fn is_steady(&self, node: NodeId) -> bool {
+        matches!(self.tree.hardware(Tree::owner(node)), Some(Hardware::Tacho(_)))
+    }
+
     /// True if reads and writes go to the driver with their offset, as those of `direct` do.
     pub fn is_binary(&self, node: NodeId) -> bool {
         self.tree.is_binary(node)

@@ -68,6 +68,11 @@ impl Machine {
         self.end_tick();
     }
 
+    /// When the tick is over that passes now.
+    pub(crate) fn next_tick(&self) -> Duration {
+        Duration::from_micros((self.tick + 1) * TICK_US)
+    }
+
     /// Whether another tick is over by now.
     pub(crate) fn is_behind(&self) -> bool {
         let micros = u64::from(self.now.subsec_micros());
