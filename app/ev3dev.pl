@@ -182,8 +182,9 @@ call_command(mark, [Exercise|Named], Options) :-
     findall(Option, marking_option(Options, Option), Chosen),
     setting(out, Options, Folder, marks),
     use_module(library(ev3dev/exercise), []),
-    Mark = ev3dev_exercise:exercise_mark(File, Named, [out(Folder)|Chosen],
-                                         Marks),
+    Mark = ev3dev_exercise:exercise_mark(File, Named,
+                                         [ out(Folder), progress(true)
+                                         | Chosen ], Marks),
     call(Mark),
     (   Marks == []
     ->  atomic_list_concat(Named, ' ', Places),
@@ -240,6 +241,10 @@ marking_option(Options, participants(List)) :-
     setting(participants, Options, List).
 marking_option(Options, earlier(Folder)) :-
     setting(earlier, Options, Folder).
+marking_option(Options, resume(true)) :-
+    setting(resume, Options, true).
+marking_option(Options, enclosed(false)) :-
+    setting('no-fence', Options, true).
 marking_option(Options, redis(Address)) :-
     setting(redis, Options, Address).
 

@@ -21,8 +21,8 @@ natives! {
     semidet fn "sim_fence_serve_"(_context, _a, _b, _c) { into_prolog_result(false) }
     /// sim_fence_silent_
     semidet fn "sim_fence_silent_"(_context) { into_prolog_result(false) }
-    /// process_usage_(_, _, _)
-    semidet fn "process_usage_"(_context, _a, _b, _c) { into_prolog_result(false) }
+    /// process_usage_(_, _, _, _, _)
+    semidet fn "process_usage_"(_context, _a, _b, _c, _d, _e) { into_prolog_result(false) }
     /// sim_fence_close_
     semidet fn "sim_fence_close_"(_context) { into_prolog_result(false) }
 }

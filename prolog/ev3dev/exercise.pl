@@ -166,13 +166,23 @@ here. All places are `X-Y` in cm.
 %       gets a mark without points.
 %     - earlier(Folder)
 %       Submissions of an earlier class, for similar programs.
+%     - resume(Boolean)
+%       Whether runs whose results are in Directory already are not made
+%       again, if neither the program nor the exercise has changed. The
+%       results are written when they come, so a marking that was interrupted
+%       goes on. Default is `false`.
+%     - progress(Boolean)
+%       Whether to print how many runs are over. Default is `false`.
 %     - enclosed(Boolean)
-%       Whether to shut programs in by bubblewrap. By default if it is
-%       installed; a message says so if it is not.
+%       Whether to shut programs in by bubblewrap. Default is `true`. With
+%       `false` they can read files and use the network.
 %
 %   @error existence_error(source_sink, File)
 %   @error existence_error(directory, Folder)
 %   @error domain_error(participants, File) if it has no rows
+%   @error existence_error(program, bwrap) if programs are to be enclosed, and
+%          bubblewrap is not installed or may not be used
+%   @error permission_error(_, _, _) if nothing can be written into Directory
 %   @error domain_error(exercise, Fact) if something is wrong in Exercise
 %   @error domain_error(exercise_option, Option)
 %   @error the errors of sim_batch/5
@@ -180,15 +190,17 @@ here. All places are `X-Y` in cm.
 exercise_mark(Exercise, Files, Options, Marks) :-
     must_be(list, Files),
     must_be_options(exercise_option,
-                    [ seeds, jobs, redis, out, formats, enclosed,
-                      participants, earlier ], Options),
+                    [ seeds, jobs, redis, out, formats, resume, progress,
+                      enclosed, participants, earlier ], Options),
     marks(Exercise, Files, Options, Marks).
 
 %!  exercise_try(+Exercise, +File, +Options) is semidet.
 %
 %   Run the program File on the open seeds of Exercise, and print what it
 %   earns, and why it does not earn more. Fails if it did not earn all.
-%   Options are those of exercise_mark/4 but `out`, and
+%   Options are `seeds`, `jobs`, `redis` and `enclosed` of exercise_mark/4; by
+%   default the program is enclosed if bubblewrap is installed, and a message
+%   says so if it is not.
 %
 %     - page(File)
 %       Write a page with a picture of the worst run.

@@ -11,9 +11,7 @@
 :- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/errors, [in_own_name/1]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
-:- use_module(private/batch/pool,
-              [ batch_step/3, end_workers/1, start_workers/2,
-                workers_ready/2 ]).
+:- use_module(private/batch/batch, [batch_runs/6, processors/1]).
 :- use_module(private/processes/redis, [redis_address/2]).
 :- use_module(library(lists), [member/2]).
 
@@ -112,27 +110,11 @@ sim_batch(File, Test, Seeds, Scores, Options) :-
     option(world(World), Own, room),
     own_options(Own, Workers, Limits, Progress),
     option(redis(Address), Own, none),
-    (   Address == none
-    ->  Server = none
-    ;   redis_address(Address, HostPort),
-        Server = redis(HostPort)
-    ),
     in_own_name(absolute_file_name(File, Path,
                                    [file_type(prolog), access(read)])),
     length(Seeds, All),
-    (   Server = redis(HostPort)
-    ->  use_module(library(ev3dev/private/batch/machines), []),
-        ev3dev_batch_machines:redis_batch(
-            HostPort, program(Path, Test, World, Sim, Limits), Seeds,
-            ev3dev_sim_batch:report(Progress-All), Done)
-    ;   numbered(Seeds, 1, Todos),
-        Number is max(1, min(Workers, All)),
-        setup_call_cleanup(
-            start_workers(Number, Pool),
-            ( workers_ready(Pool, begin(Path, Test, World, Sim)),
-              batch(now(Todos, Pool, [], []), Limits, Progress-All, Done) ),
-            end_workers(Pool))
-    ),
+    batch_runs(program(Path, Test, World, Sim, Limits), Seeds, Workers,
+               Address, ev3dev_sim_batch:report(Progress-All), Done),
     msort(Done, Sorted),
     findall(Seed-Score, member(done(_, Seed, Score), Sorted), Scores).
 
@@ -153,10 +135,7 @@ sim_batch_work(Address, Workers) :-
     ev3dev_batch_machines:redis_work(HostPort, Workers).
 
 own_options(Options, Workers, limits(Sleep, Cpu), Progress) :-
-    (   current_prolog_flag(cpu_count, Processors)
-    ->  true
-    ;   Processors = 1
-    ),
+    processors(Processors),
     option(workers(Workers), Options, Processors),
     must_be(positive_integer, Workers),
     limit_option(sleep(Sleep), Options, 60),
@@ -167,22 +146,6 @@ own_options(Options, Workers, limits(Sleep, Cpu), Progress) :-
     ),
     option(progress(Progress), Options, Terminal),
     must_be(boolean, Progress).
-
-numbered([], _, []).
-numbered([Seed|Seeds], Number, [todo(Number, Seed, 1)|Todos]) :-
-    Next is Number+1,
-    numbered(Seeds, Next, Todos).
-
-batch(Now, Limits, Report, Done) :-
-    Now = now(Todos, _, Busy, Done0),
-    (   Todos == [],
-        Busy == []
-    ->  Done = Done0
-    ;   batch_step(Limits, Now, Now1),
-        Now1 = now(_, _, _, Done1),
-        report(Report, Done0, Done1),
-        batch(Now1, Limits, Report, Done)
-    ).
 
 %   Ten times in all.
 

@@ -9,7 +9,7 @@
               [ limit_option/2, limit_option/3, must_be_options/3,
                 option/3 ]).
 :- use_module(private/simulation/random_seed, [branch_seed/1]).
-:- use_module(private/files/directory, [new_directory/2]).
+:- use_module(private/batch/workplace, [end_workplace/1, new_workplace/2]).
 :- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/errors, [in_own_name/1, throw_error/3]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
@@ -17,10 +17,9 @@
               [ sim_fence_close_/0, sim_fence_open_/1,
                 sim_fence_serve_/3, sim_fence_silent_/0 ]).
 :- use_module(private/processes/usage,
-              [ usage_age/2, usage_begins/1, usage_beyond/3, usage_goes_on/5,
-                usage_heard/2 ]).
+              [ usage_age/2, usage_begins/1, usage_beyond/3, usage_crowded/3,
+                usage_goes_on/5, usage_heard/2 ]).
 :- use_module(sim_time, [sim_time/1]).
-:- use_module(library(filesex), [delete_directory_and_contents/1]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(process),
               [ process_create/3, process_group_kill/2, process_kill/2,
@@ -59,7 +58,10 @@ Ended = over,
 %     - limit(sleep)
 %     - limit(cpu)
 %     - limit(output)
-%       It slept or computed for too long, or has printed too much.
+%     - limit(memory)
+%     - limit(processes)
+%       It slept or computed for too long, has printed too much, or its
+%       processes had too much memory together, or more than 200 threads.
 %     - refused(Why)
 %       It has sent what no program sends by these libraries. Why is a string.
 %     - lost
@@ -88,12 +90,13 @@ Ended = over,
 %       simulation. A program that does not know Text cannot find that seed
 %       from its numbers. Default is `''`.
 %     - memory(Megabytes)
-%       How much memory each of its processes may use. By default as much as
-%       it likes.
+%       How much memory each of its processes may use, and all of them
+%       together. By default as much as they like.
 %     - enclosed(Boolean)
 %       Whether the program is shut in by bwrap (bubblewrap): it has no
-%       network, sees no other processes, and no files but its own and those
-%       of SWI-Prolog and the pack. Default is `false`.
+%       network, sees no other processes, no files but its own and those of
+%       SWI-Prolog and the pack, and nothing of the environment. What it
+%       writes is in memory, 64 MB at most. Default is `false`.
 %     - files(Files)
 %       Other files that it loads, which are its own, too. Default is [].
 %     - output(Text)
@@ -151,12 +154,12 @@ sim_fenced(File, Ended, Options) :-
         in_directory(Directory, [Path|Files], Goal, Seed,
                      limits(Seconds, Sleep, Cpu, Megabytes, Enclosed), Ended,
                      Text, Told),
-        ( sim_fence_close_, delete_directory_and_contents(Directory) )).
+        ( sim_fence_close_, end_workplace(Directory) )).
 
 %   What the program may write is in a directory of its own.
 
 fence_directory(Directory) :-
-    new_directory(ev3dev_fence, Directory),
+    new_workplace(ev3dev_fence, Directory),
     atom_concat(Directory, '/own', Own),
     make_directory(Own).
 
@@ -184,7 +187,7 @@ in_directory(Directory, Paths, Goal, Seed,
     setup_call_cleanup(
         start(Directory, [Socket, ToldBy, Seed], Output, Paths, Goal,
               AtMost-Memory-Shut, Pid),
-        served(Pid, Until, limits(Sleep, Cpu, Now), Used, Ended0),
+        served(Pid, Until, limits(Sleep, Cpu, Now, Memory), Used, Ended0),
         ended(Pid, Directory, Shut)),
     printed(Output, Size, Text),
     (   Size >= 1 << 20
@@ -292,26 +295,45 @@ start(Directory, [Socket, Tells, Seed], Output, [Path|Files], Goal,
     ),
     atom_concat(Directory, '/own', Own),
     (   Shut == true
-    ->  enclosure(Directory, [Path|Files], Walls),
-        Enclosure = [bwrap|Walls]
-    ;   Enclosure = []
+    ->  enclosing(true, Extra),
+        enclosure(Directory, [Path|Files], Extra, Walls),
+        Begin = ['-i'],
+        findall(Name=Value, ( kept_variable(Name), getenv(Name, Value) ),
+                Kept),
+        ( Tells == '' -> true ; close_new(Tells) )
+    ;   Walls = [],
+        Begin = [],
+        Kept = ['EV3DEV_FENCED'=Directory]
     ),
-    append(Enclosure,
-           [ Prolog, '-q', '-f', file(Begins), '-p', Alias, '-g', GoalText,
-             '-t', halt, '-s', file(Path) ], Command),
+    findall(Variable,
+            ( member(Name=Value, [ 'EV3DEV_FENCE'=Socket, 'EV3DEV_TOLD'=Tells,
+                                   'EV3DEV_SEED'=Seed | Kept ]),
+              Value \== '',
+              atomic_list_concat([Name, =, Value], Variable) ),
+            Variables),
+    append([ Begin, Variables, Walls,
+             [ Prolog, '-q', '-f', file(Begins), '-p', Alias, '-g', GoalText,
+               '-t', halt, '-s', file(Path) ] ], Command),
     process_create(
         path(sh),
-        [ '-c', 'ulimit -c 0; ulimit -f 2048; ulimit -v "$2"; output=$3
-                 ulimit -t "$1"
-                 EV3DEV_FENCE=$4; EV3DEV_FENCED=$6
-                 export EV3DEV_FENCE EV3DEV_FENCED
-                 [ -z "$5" ] || { EV3DEV_TOLD=$5; export EV3DEV_TOLD; }
-                 [ -z "$7" ] || { EV3DEV_SEED=$7; export EV3DEV_SEED; }
-                 shift 7
-                 exec "$@" </dev/null >"$output" 2>&1',
-          sh, Limit, Kilobytes, file(Output), file(Socket), Tells,
-          file(Directory), Seed | Command ],
+        [ '-c', 'ulimit -c 0; ulimit -f 2048; ulimit -v "$2"; ulimit -t "$1"
+                 output=$3; shift 3
+                 exec env "$@" </dev/null >"$output" 2>&1',
+          sh, Limit, Kilobytes, file(Output) | Command ],
         [ process(Pid), detached(true), cwd(Own) ]).
+
+close_new(File) :-
+    open(File, write, Stream),
+    close(Stream).
+
+%   What an enclosed program has of the environment, which may have secrets.
+
+kept_variable('PATH').
+kept_variable('LD_LIBRARY_PATH').
+kept_variable('LANG').
+kept_variable('LC_ALL').
+kept_variable('LC_CTYPE').
+kept_variable('TZ').
 
 %!  can_enclose is semidet.
 %
@@ -319,36 +341,48 @@ start(Directory, [Socket, Tells, Seed], Output, [Path|Files], Goal,
 %   starts within.
 
 can_enclose :-
-    (   enclosing(Whether)
+    enclosing(true, _).
+
+%   Extra are walls that not every bwrap and system has.
+
+enclosing(Whether, Extra) :-
+    (   known_enclosing(_, _)
     ->  true
-    ;   (   catch(starts_enclosed, _, fail)
-        ->  Whether = true
-        ;   Whether = false
-        ),
-        assertz(enclosing(Whether))
+    ;   member(Found, [['--unshare-user', '--disable-userns'], []]),
+        catch(starts_enclosed(Found), error(_, _), fail)
+    ->  assertz(known_enclosing(true, Found))
+    ;   assertz(known_enclosing(false, []))
     ),
-    Whether == true.
+    known_enclosing(Whether, Extra).
 
-:- dynamic enclosing/1.
-:- volatile enclosing/1.
+:- dynamic known_enclosing/2.
+:- volatile known_enclosing/2.
 
-starts_enclosed :-
+starts_enclosed(Extra) :-
     current_prolog_flag(executable, Prolog),
     pack_folder(Pack),
     setup_call_cleanup(
         fence_directory(Directory),
-        ( enclosure(Directory, [Pack], Walls),
+        ( forall(member(Name, [robot, told]),
+                 ( atomic_list_concat([Directory, '/own/', Name], File),
+                   close_new(File) )),
+          enclosure(Directory, [Pack], Extra, [bwrap|Walls]),
           append(Walls, [Prolog, '-f', none, '-g', halt], Arguments),
           process_create(path(bwrap), Arguments,
                          [stdout(null), stderr(null), process(Pid)]),
           process_wait(Pid, exit(0), []) ),
-        delete_directory_and_contents(Directory)).
+        end_workplace(Directory)).
 
 %   The arguments with which bwrap shuts in what follows. The system's
-%   programs and libraries can be read, but nobody's home.
+%   programs and libraries can be read, but nobody's home. What the program
+%   writes is in memory, and bounded; outside it has the socket of its robot,
+%   and the file for the log of its rules. bwrap leaves capabilities
+%   to root, and without them root can still set what is in /proc/sys.
 
-enclosure(Directory, Paths, Walls) :-
+enclosure(Directory, Paths, Extra, Walls) :-
     atom_concat(Directory, '/own', Own),
+    atom_concat(Own, '/robot', Socket),
+    atom_concat(Own, '/told', Tells),
     pack_folder(Pack),
     current_prolog_flag(home, Home),
     current_prolog_flag(executable, Prolog0),
@@ -357,19 +391,25 @@ enclosure(Directory, Paths, Walls) :-
     findall([Bind, Folder, Folder],
             (   member(Folder, ['/usr', '/bin', '/lib', '/lib64']),
                 Bind = '--ro-bind-try'
-            ;   member(Name, ['/prolog', '/lib', '/native']),
+            ;   member(Name, ['/prolog', '/lib', '/native', '/compiled']),
                 atom_concat(Pack, Name, Folder),
                 Bind = '--ro-bind-try'
-            ;   member(Folder, [Home, Programs|Paths]),
+            ;   member(Folder, [Home, Programs, Socket|Paths]),
                 Bind = '--ro-bind'
-            ;   Folder = Own,
-                Bind = '--bind'
+            ;   Folder = Tells,
+                Bind = '--bind-try'
             ),
-            Binds0),
-    append([ [ '--unshare-all', '--die-with-parent', '--new-session',
-              '--proc', '/proc', '--dev', '/dev', '--tmpfs', '/tmp' ]
-           | Binds0 ], Walls0),
-    append(Walls0, ['--chdir', Own, '--'], Walls).
+            Binds),
+    append([ [ [ bwrap, '--unshare-all', '--die-with-parent',
+                 '--new-session', '--cap-drop', 'ALL' | Extra ],
+               [ '--proc', '/proc', '--dev', '/dev',
+                 '--size', 67108864, '--tmpfs', '/tmp',
+                 '--size', 67108864, '--tmpfs', Own ] ],
+             Binds,
+             [ [ '--remount-ro', '/proc', '--remount-ro', '/dev',
+                 '--remount-ro', '/',
+                 '--chdir', Own, '--' ] ] ], Walls0),
+    append(Walls0, Walls).
 
 %   The program is looked at as often as it is silent, else five times a
 %   second. The looks follow the clock, whatever the program does: one that
@@ -384,13 +424,23 @@ served(Pid, Until, Limits, Used0, Ended) :-
     ->  true
     ;   process_wait(Pid, Status, [timeout(0)]),
         Status \== timeout
-    ->  Ended = Status
+    ->  read_to_the_end(Until),
+        Ended = Status
     ;   looked(State, Pid, Slice, Used0, Used),
         (   beyond(Used, Limits, Ended0)
         ->  Ended = Ended0
         ;   ( State == ended -> sleep(0.005) ; true ),
             served(Pid, Until, Limits, Used, Ended)
         )
+    ).
+
+%   What the program had still written when it ended.
+
+read_to_the_end(Until) :-
+    slice(Slice),
+    (   sim_fence_serve_(Until, Slice, waiting)
+    ->  read_to_the_end(Until)
+    ;   true
     ).
 
 slice(0.02).
@@ -406,7 +456,10 @@ looked(waiting, Pid, Slice, Used0, Used) :-
 looked(_, Pid, Slice, Used0, Used) :-
     usage_goes_on(Pid, Slice, sim_fence_silent_, Used0, Used).
 
-beyond(Used, limits(Sleep, Cpu, From), Limit) :-
+beyond(Used, limits(_, _, _, Memory), Limit) :-
+    usage_crowded(Used, Memory, Limit),
+    !.
+beyond(Used, limits(Sleep, Cpu, From, _), Limit) :-
     sim_time(Now),
     processor_time(Cpu, From, Now, Seconds),
     usage_beyond(Used, limits(Sleep, Seconds), Limit).

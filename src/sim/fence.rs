@@ -21,6 +21,9 @@ use swipl::prelude::*;
 /// By the number of the brick whose robot the program has.
 static FENCES: Mutex<BTreeMap<u32, Fence>> = Mutex::new(BTreeMap::new());
 
+/// The longest time that a program may let pass without a question.
+const AHEAD: Duration = Duration::from_millis(100);
+
 struct Fence {
     listener: UnixListener,
     /// Once the program has connected.
@@ -90,7 +93,9 @@ impl Fence {
                         return Ok(State::Over);
                     }
                     let next = simulation.next_act().unwrap_or(Duration::MAX);
-                    desk.answer(&mut simulation.machine(), next.min(end));
+                    let mut machine = simulation.machine();
+                    let until = next.min(end).min(machine.now().saturating_add(AHEAD));
+                    desk.answer(&mut machine, until);
                 }
             }
         }

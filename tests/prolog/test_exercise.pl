@@ -65,7 +65,9 @@ marked_by(Exercise, Lines, Mark) :-
 mark_files(Files, Options, Marks) :-
     folder(Folder),
     atom_concat(Folder, '/exercise', Exercise),
-    quietly(exercise_mark(Exercise, Files, Options, Marks)).
+    ( can_enclose -> Fence = [] ; Fence = [enclosed(false)] ),
+    append(Options, Fence, All),
+    once(exercise_mark(Exercise, Files, All, Marks)).
 
 :- meta_predicate quietly(0).
 
@@ -264,7 +266,93 @@ test(one_format, Names == ['marks.csv']) :-
                   program(honest, File),
                   mark_files([File], [seeds(1), out(Out), formats([csv])], _),
                   directory_files(Out, Found) )),
-    subtract(Found, ['.', '..'], Names).
+    subtract(Found, ['.', '..', 'runs.pl'], Names).
+
+%   The program leaves a mark where it is run, if the fence is open.
+test(only_what_has_changed_is_run_again, Runs-Again == [4, 4, 6, 7, 8]-Marks) :-
+    with_folder(( folder(Folder), atom_concat(Folder, '/marks', Out),
+                  honest([Loads|Honest]),
+                  atom_concat(Folder, '/runs', Count),
+                  format(string(Notes), ":- open(~q, append, S), write(S, x), close(S).", [Count]),
+                  file(one, [Loads, Notes|Honest], One),
+                  file(two, [Loads, Notes|Honest], Two),
+                  Options = [out(Out), formats([json]), enclosed(false), jobs(1), resume(true)],
+                  counted(Count, [One, Two], [seeds(1-2)|Options], First, Marks),
+                  counted(Count, [One, Two], [seeds(1-2)|Options], Second, Again),
+                  counted(Count, [One, Two], [seeds([1, 2, 7])|Options], Third, _),
+                  cut_off(Out),
+                  counted(Count, [One, Two], [seeds([1, 2, 7])|Options], Fourth, _),
+                  file(two, [Loads, Notes, "% changed"|Honest], Two),
+                  counted(Count, [One, Two], [seeds(1)|Options], Fifth, _) )),
+    Runs = [First, Second, Third, Fourth, Fifth].
+
+counted(File, Programs, Options, Count, Marks) :-
+    mark_files(Programs, Options, Marks),
+    size_file(File, Count).
+
+%   The last line, as if the marker had been killed in it.
+cut_off(Out) :-
+    atom_concat(Out, '/runs.pl', File),
+    read_file_to_string(File, Text, []),
+    sub_string(Text, 0, _, 3, Short),
+    setup_call_cleanup(open(File, write, S), write(S, Short), close(S)).
+
+%   Ctrl-C ends the marking while a program drives, and another marking goes on where it was.
+test(an_interrupted_marking_goes_on, [condition(can_enclose), Left-Lines == []-2]) :-
+    current_prolog_flag(executable, Prolog),
+    with_folder(( folder(Folder), program(honest, One),
+                  atom_concat(Folder, '/exercise.pl', Exercise),
+                  atom_concat(Folder, '/out', Out), atom_concat(Out, '/runs.pl', File),
+                  file(slow, [":- use_module(library(ev3dev)).", "start :- col_ambient(_, _), start."],
+                       Slow),
+                  Command = ['-q', 'app/ev3dev.pl', mark, Exercise, One, Slow, '--seeds', '1',
+                             '--jobs', '1', '--out', Out],
+                  process_create(Prolog, Command,
+                                 [ stdin(null), stdout(null), stderr(null), process(Pid),
+                                   environment(['TMP'=Folder]) ]),
+                  until(lines(File, 1)),
+                  process_kill(Pid, int),
+                  process_wait(Pid, exit(1)),
+                  directory_files(Folder, Names),
+                  include([Name]>>sub_atom(Name, 0, _, _, swipl_), Names, Left),
+                  append(Command, ['--resume'], Again),
+                  file(slow, [":- use_module(library(ev3dev)).", "start :- col_ambient(_, _)."], _),
+                  process_create(Prolog, Again,
+                                 [stdin(null), stdout(null), stderr(null), process(Pid2)]),
+                  process_wait(Pid2, exit(0)),
+                  lines(File, Lines) )).
+
+lines(File, Count) :-
+    exists_file(File),
+    read_file_to_string(File, Text, []),
+    split_string(Text, "\n", "", Lines),
+    length(Lines, Count0),
+    Count is Count0-1.
+
+:- meta_predicate until(0).
+
+until(Goal) :-
+    between(1, 60000, _),
+    ( call(Goal) -> true ; sleep(0.01), fail ),
+    !.
+
+test(no_folder_for_its_reports, error(_)) :-
+    with_folder(( folder(Folder), atom_concat(Folder, '/file', File), program(honest, Honest),
+                  setup_call_cleanup(open(File, write, S), true, close(S)),
+                  mark_files([Honest], [out(File)], _) )).
+%   Whatever a program breaks, the others get their marks.
+test(what_one_breaks_is_its_own_loss,
+     [ forall(( member(Enclosed, [true, false]),
+                member(Command, ["rm -rf ../output ../own", "rm ../output; mkfifo ../output",
+                                 "rm -rf ../../*", "chmod 000 . ..", "kill -9 -1"]) )),
+       condition(( Enclosed == true -> can_enclose ; Command \== "kill -9 -1" )),
+       Points == 10 ]) :-
+    atom_string(Shell, Command),
+    format(string(Breaks), ":- shell(~q, _).", [Shell]),
+    honest([Loads|Honest]),
+    with_folder(( file(breaks, [Loads, Breaks|Honest], File), program(honest, Good),
+                  mark_files([File, Good], [seeds(1), jobs(1), enclosed(Enclosed)],
+                             [_, mark(_, Points, _, _, _, _)]) )).
 test(programs_that_are_alike, true(sub_string(Index, _, _, _, "a and b: 100 %"))) :-
     Lines = ["one(X) :- two(X, _).", "two(A, B) :- three(A), three(B).", "three(_).", "start."],
     Others = ["one(Y) :- two(Y, _).", "two(C, D) :- three(C), three(D).", "three(_).", "start."],

@@ -1,4 +1,5 @@
 :- use_module('../support/child').
+:- use_module('../support/probes').
 :- use_module('../support/trees').
 :- use_module(library(ev3dev/sim_fenced)).
 :- use_module(library(socket), []).
@@ -206,6 +207,78 @@ test(no_file, error(existence_error(source_sink, nowhere))) :-
 test(wrong_option, error(domain_error(sim_fenced_option, seed(1)))) :-
     in_room(sim_fenced(nowhere, _, [seed(1)])).
 :- end_tests(sim_fenced).
+
+%   A directory with the file `secret`, which no program may read or harm.
+:- meta_predicate with_kept(-, 0).
+
+with_kept(Kept, Goal) :-
+    setup_call_cleanup(
+        ( tmp_file(kept, Kept), make_directory(Kept), atom_concat(Kept, '/secret', File),
+          setup_call_cleanup(open(File, write, Out), write(Out, secret), close(Out)) ),
+        once(Goal),
+        ( catch(delete_file(File), _, true), delete_directory(Kept) )).
+
+%   The fences of this process.
+fences(Fences) :-
+    current_prolog_flag(tmp_dir, Folder),
+    current_prolog_flag(pid, Pid),
+    atomic_list_concat([swipl_ev3dev_fence_, Pid, '_'], Begin),
+    directory_files(Folder, Names),
+    include([Name]>>sub_atom(Name, 0, _, _, Begin), Names, Fences).
+
+:- begin_tests(sim_fenced_walls, [condition(starts_itself)]).
+test(no_probe_succeeds, [condition(can_enclose), Succeed == []]) :-
+    setup_call_cleanup(
+        setenv('EV3DEV_TEST_SECRET', token),
+        with_kept(Kept, ( probing(Kept, Lines),
+                          fenced(Lines, Ended, Text, _, [enclosed(true), told(_), seconds(600)]) )),
+        unsetenv('EV3DEV_TEST_SECRET')),
+    split_string(Text, "\n", "", Names),
+    findall(Name, ( probe(Name, _), atom_string(Name, Text1), memberchk(Text1, Names) ), Succeed),
+    assertion(Ended == exit(0)).
+test(its_rights_do_not_matter,
+     [ forall(( member(Enclosed, [false, true]),
+                member(Command, [ "chmod 000 .", "ln -s $KEPT link; ln -s $KEPT ../link",
+                                  "for n in $(seq 1500); do mkdir ddddddddddddddd && cd ddddddddddddddd; done",
+                                  "rm -rf ../output ../own", "rm ../output; mkdir -p ../output/x",
+                                  "touch \"$(printf '\\\\377\\\\n')\"" ]) )),
+       condition(( Enclosed == false ; can_enclose )),
+       Fences-Secret == []-true ]) :-
+    with_kept(Kept, ( atom_string(Shell, Command),
+                      format(string(Main), "main :- us_dist_cm(in1, _), setenv('KEPT', ~q), shell(~q, _).",
+                             [Kept, Shell]),
+                      catch(fenced([Main], _, _, _, [enclosed(Enclosed)]), error(_, _), true),
+                      atom_concat(Kept, '/secret', File),
+                      ( exists_file(File) -> Secret = true ; Secret = false ) )),
+    fences(Fences).
+test(nobody_else_reads_what_it_has, Mode == "700\n") :-
+    fenced(["main :- us_dist_cm(in1, _), shell('stat -c %a ..')."], _, Mode, _, []).
+test(too_many_processes, Ended == limit(processes)) :-
+    fenced(["main :- us_dist_cm(in1, _),",
+            "    shell('for n in $(seq 300); do sleep 1000 & done; wait')."], Ended, _, _, []).
+test(too_much_memory_together, Ended == limit(memory)) :-
+    fenced(["main :- us_dist_cm(in1, _), shell('for n in $(seq 8); do",
+            " { x=$(head -c 30000000 /dev/zero | tr \"\\\\0\" x); sleep 1000; } & done; wait')."],
+           Ended, _, _, [memory(200)]).
+test(what_a_killed_process_has_left, Found-Still == []-[]) :-
+    current_prolog_flag(executable, Prolog),
+    current_prolog_flag(tmp_dir, Folder),
+    format(atom(Goal), "use_module(library(ev3dev/private/batch/workplace)), \c
+                        set_prolog_flag(tmp_dir, ~q), new_workplace(left_here, D), \c
+                        writeln(D), flush_output, read(_)", [Folder]),
+    process_create(Prolog, ['-q', '-p', 'library=prolog', '-g', Goal, '-t', halt],
+                   [stdin(pipe(In)), stdout(pipe(Out)), process(Pid)]),
+    read_line_to_string(Out, Line),
+    process_kill(Pid, kill),
+    process_wait(Pid, _),
+    forall(member(Stream, [In, Out]), close(Stream, [force(true)])),
+    atom_string(Left, Line),
+    assertion(exists_directory(Left)),
+    ev3dev_workplace:new_workplace(left_here, Mine),
+    ( exists_directory(Left) -> Found = [Left] ; Found = [] ),
+    ev3dev_workplace:end_workplace(Mine),
+    ( exists_directory(Mine) -> Still = [Mine] ; Still = [] ).
+:- end_tests(sim_fenced_walls).
 
 :- begin_tests(sim_fenced_wire, [condition(( starts_itself, has_unix_sockets ))]).
 %   A program may know the socket, and speak for itself. An answer that is an error is as

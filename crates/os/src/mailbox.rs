@@ -158,7 +158,7 @@ impl Mailbox {
         unsafe { self.words.add(index).as_ref() }
     }
 
-    /// Writes bytes into the mailbox behind so many, a multiple of 4; how many there are then.
+    /// Writes bytes into the mailbox from this one on, a multiple of 4; where they end.
     /// `None` if there is no room.
     fn put(&self, behind: u32, bytes: &[u8]) -> Option<u32> {
         let length = behind.checked_add(u32::try_from(bytes.len()).ok()?)?;

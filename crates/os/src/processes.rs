@@ -1,5 +1,5 @@
-//! The kernel's report on other processes: how much processor time they have used, and whether
-//! all of them sleep.
+//! The kernel's report on other processes: how much processor time they have used, whether all of
+//! them sleep, and how many they are.
 //!
 //! A thread that can run is awake, also while other programs have the processors. So nothing
 //! here depends on what else the machine has to do.
@@ -17,6 +17,10 @@ pub struct Usage {
     /// If all their threads sleep: how often these have left a processor. As long as that stays
     /// the same, none of them has run.
     pub rest: Option<u64>,
+    /// The number of their threads.
+    pub threads: usize,
+    /// The bytes that they have in memory. What several of them share counts several times.
+    pub memory: u64,
 }
 
 /// A kernel can be built without the first of these files.
@@ -29,6 +33,7 @@ pub fn usage(process: u32) -> Option<Usage> {
     let parents = if Path::new(CHILDREN).exists() { Vec::new() } else { parents(&mut text) };
     let mut members = vec![process];
     let (mut ticks, mut switches) = (None, Some(0));
+    let (mut threads, mut pages) = (0, 0);
     let mut next = 0;
     while let Some(member) = members.get(next).copied() {
         next += 1;
@@ -37,8 +42,10 @@ pub fn usage(process: u32) -> Option<Usage> {
         // Its own time, and that of its children, each in user and in kernel mode.
         let used: u64 = (11..15).filter_map(|index| field::<u64>(stat, index)).sum();
         ticks = Some(ticks.unwrap_or(0) + used);
+        pages += field::<u64>(stat, 21).unwrap_or(0);
         for task in names(&folder.join("task")) {
             let task = folder.join("task").join(task.to_string());
+            threads += 1;
             if let Some(status) = read(&task.join("status"), &mut text) {
                 let (state, count) = state_and_switches(status);
                 let is_awake = matches!(state, b'R' | b'D');
@@ -51,7 +58,9 @@ pub fn usage(process: u32) -> Option<Usage> {
         members.extend(parents.iter().filter(|one| one.1 == member).map(|one| one.0));
     }
     // The kernel shows hundredths of a second, whatever its own clock has.
-    ticks.map(|ticks| Usage { time: Duration::from_millis(10 * ticks), rest: switches })
+    let time = |ticks| Duration::from_millis(10 * ticks);
+    let memory = pages * rustix::param::page_size() as u64;
+    ticks.map(|ticks| Usage { time: time(ticks), rest: switches, threads, memory })
 }
 
 /// The state of a thread, a letter such as `S`, and how often it has left its processor, from

@@ -22,7 +22,7 @@ fn an_answer_comes_back_through_the_socket() {
         let mut desk = Desk::new(host, Duration::from_secs(3)).unwrap();
         while let Next::Asked(at) = desk.hear(WITHIN).unwrap() {
             simulation.pause(at);
-            desk.answer(&mut simulation.machine());
+            desk.answer(&mut simulation.machine(), Duration::ZERO);
         }
     });
     let (line, now) = Line::new(program, || ()).unwrap();

@@ -211,7 +211,7 @@ impl Kept {
         }
     }
 
-    /// Those of the device of a file.
+    /// Forgets the reads of a file's device.
     fn forget_reads(&mut self, number: u64) {
         let owner = Tree::owner(NodeId(number));
         self.reads.retain(|(its, ..)| Tree::owner(NodeId(its[0])) != owner);

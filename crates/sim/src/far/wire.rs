@@ -254,9 +254,10 @@ impl Desk {
 
     /// Takes over what is written of the next letter, if there is something.
     fn has_draft(&mut self) -> bool {
-        if let Some(mailbox) = self.mailbox.as_ref().filter(|_| self.received.is_empty()) {
-            self.received = mailbox.draft();
-        }
+        let Some(mailbox) = self.mailbox.as_ref().filter(|_| self.received.is_empty()) else {
+            return false;
+        };
+        self.received = mailbox.draft();
         !self.received.is_empty()
     }
 

@@ -64,6 +64,10 @@ option(participants, 'LIST', 'a file', [mark],
        'the class: a grading worksheet, roster or other table').
 option(earlier, 'FOLDER', 'a folder', [mark],
        'an earlier class, for similar programs').
+option(resume, '', flag, [mark],
+       'only the runs that are not in FOLDER yet').
+option('no-fence', '', flag, [mark],
+       'programs can read files and use the network').
 option(redis, 'ADDRESS', 'an address', [work, mark],
        'of the server, as HOST:PORT: localhost:6379').
 option(workers, 'N', 'a whole number above 0', [work],

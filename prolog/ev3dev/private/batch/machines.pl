@@ -5,14 +5,13 @@
           ]).
 :- use_module('../basics/fields',
               [fields/1, goal_expansion/2, term_expansion/2]).
+:- use_module(workplace, [end_workplace/1, new_workplace/2]).
 :- use_module(pool,
               [ batch_step/3, end_workers/1, start_workers/2,
                 workers_ready/2 ]).
-:- use_module('../files/directory', [new_directory/2]).
 :- use_module('../checks/checks', [must_be/2]).
 :- use_module('../processes/redis', [ask/3, connection_lost/1, with_redis/3]).
-:- use_module(library(filesex),
-              [ delete_directory_and_contents/1, directory_file_path/3 ]).
+:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(socket), [gethostname/1]).
@@ -288,7 +287,7 @@ stopped_program :-
            ( end_workers(Pool),
              (   Folder == none
              ->  true
-             ;   delete_directory_and_contents(Folder)
+             ;   end_workplace(Folder)
              ) )).
 
 %   The same file here may have others beside it.
@@ -298,7 +297,7 @@ here(File, Program, Here, Folder) :-
               error(_, _), fail)
     ->  Here = File,
         Folder = none
-    ;   new_directory(batch, Folder),
+    ;   new_workplace(ev3dev_batch, Folder),
         file_base_name(File, Name),
         directory_file_path(Folder, Name, Here),
         setup_call_cleanup(

@@ -45,6 +45,17 @@ start_workers(Number, Pool) :-
                 throw(Error) ))
     ).
 
+%   Workers that live on as the program halts are ended.
+
+:- dynamic worker_process/1.
+:- volatile worker_process/1.
+
+:- initialization(at_halt(ev3dev_batch_pool:end_left), now).
+
+end_left :-
+    forall(retract(worker_process(Pid)),
+           catch(process_group_kill(Pid, kill), _, true)).
+
 start_worker(worker(Pid, In, Out)) :-
     current_prolog_flag(executable, Prolog),
     module_property(ev3dev_batch_pool, file(This)),
@@ -55,6 +66,7 @@ start_worker(worker(Pid, In, Out)) :-
                      '-g', 'ev3dev_batch_worker:work', '-t', halt ],
                    [ stdin(pipe(In)), stdout(pipe(Out)), process(Pid),
                      detached(true) ]),
+    assertz(worker_process(Pid)),
     maplist(set_utf8, [In, Out]).
 
 set_utf8(Stream) :-
@@ -93,7 +105,8 @@ has_died :-
 
 end_workers(Pool) :-
     forall(member(worker(Pid, In, Out), Pool),
-           ( catch(process_group_kill(Pid, kill), _, true),
+           ( retractall(worker_process(Pid)),
+             catch(process_group_kill(Pid, kill), _, true),
              maplist(close_quietly, [In, Out]),
              catch(process_wait(Pid, _), _, true) )).
 

@@ -11,6 +11,7 @@
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/private/simulation/random_seed),
               [begin_chance/1]).
+:- use_module(library(ev3dev/private/batch/message_text), [message_text/2]).
 :- use_module(library(ev3dev/private/processes/descriptors),
               [dropped/1, taken/3]).
 :- use_module(library(unix), [fork/1, wait/2]).
@@ -109,11 +110,5 @@ in_world(none, Seed, Test, Found, _) :-
 in_world(World, Seed, Test, Found, Options) :-
     with_sim(World, call(Test, Found), [seed(Seed)|Options]).
 
-%   What Prolog would print.
-
 score_of(Error, error(Message)) :-
-    '$messages':translate_message(Error, Lines, []),
-    with_output_to(string(Text),
-                   print_message_lines(current_output, '', Lines)),
-    split_string(Text, "", " \n", [Trimmed]),
-    atom_string(Message, Trimmed).
+    message_text(Error, Message).

@@ -5,13 +5,18 @@
           ]).
 :- use_module('../basics/fields', [goal_expansion/2, term_expansion/2]).
 :- use_module(records, []).
-:- use_module('../../sim_batch', [sim_batch/5]).
+:- use_module('../batch/batch', [batch_runs/6, processors/1]).
+:- use_module('../batch/workplace', [end_workplace/1, new_workplace/2]).
 :- use_module('../../sim_fenced', [can_enclose/0]).
+:- use_module('../load/compiled', [pack_folder/1]).
 :- use_module('../checks/arguments', [option/2, option/3]).
 :- use_module('../checks/checks', [must_be/2]).
 :- use_module('../files/directory', [directory_path/2]).
-:- use_module('../errors/errors', [domain_error/2, in_own_name/1]).
+:- use_module('../errors/errors',
+              [domain_error/2, in_own_name/1, throw_error/3]).
 :- use_module(check, [check_exercise/1]).
+:- use_module(kept, [keep_run/3, kept_run/3, with_kept_runs/4]).
+:- use_module(progress, [progress_begins/3, progress_ends/1, runs_over/2]).
 :- use_module(read,
               [ exercise_seeds/3, exercise_setting/3, forbidden/3,
                 read_exercise/2, seed_list/2 ]).
@@ -20,8 +25,9 @@
 :- use_module(submissions, [can_be/2, own_submission/2, submissions/4]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
-              [append/3, member/2, nth1/3, sum_list/2]).
-:- use_module(library(readutil), [read_file_to_string/3]).
+              [append/3, member/2, nth1/3, numlist/3, sum_list/2]).
+:- use_module(library(readutil),
+              [read_file_to_string/3, read_file_to_terms/3]).
 
 /** <module> Many runs of many programs, and their points
 
@@ -41,12 +47,30 @@ marks(Exercise0, Files, Options, Marks) :-
     option(formats(Formats), Options, all),
     must_be_formats(Formats),
     class(Files, Exercise, Read, Options, Submissions, Class),
-    marked_files(Exercise, Read, Submissions, Seeds, Options, Marked),
+    option(out(Directory), Options, none),
+    option(resume(Resume), Options, false),
+    must_be(boolean, Resume),
+    option(enclosed(Enclosed), Options, true),
+    must_be_possible(Enclosed),
+    with_kept_runs(Directory, Resume, Kept,
+                   marked_files(Exercise, Read, Submissions, Seeds, Kept,
+                                [enclosed(Enclosed)|Options], Marked)),
     findall(Mark, member(marked(mark: Mark), Marked), Marks),
-    (   option(out(Directory), Options)
+    (   Directory \== none
     ->  use_module(library(ev3dev/private/marking/report), []),
         ev3dev_marking_report:write_reports(Formats, Directory, Read, Class,
                                             Marked)
+    ;   true
+    ).
+
+must_be_possible(Enclosed) :-
+    must_be(boolean, Enclosed),
+    (   Enclosed == true,
+        \+ can_enclose
+    ->  throw_error(existence_error(program, bwrap), _,
+                    'bubblewrap is not installed, or may not be used: \c
+                     install it, or let programs read files and use the \c
+                     network by --no-fence or enclosed(false)')
     ;   true
     ).
 
@@ -175,7 +199,8 @@ earned_all(Marked) :-
 printed(Exercise, Read, Which, File, Options, Marked) :-
     seeds(Read, Which, Options, Seeds),
     own_submission(File, Submission),
-    marked_files(Exercise, Read, [Submission], Seeds, Options, [Marked]),
+    marked_files(Exercise, Read, [Submission], Seeds, none, Options,
+                 [Marked]),
     Marked = marked(mark: mark(_, Points, Of, Scores, Runs, Reason),
                     results: Results),
     length(Runs, Count),
@@ -200,7 +225,7 @@ most_text(1000000).
 %   A program that had to be ended with the first two seeds is not run with
 %   the others; so the jobs come in two parts, whatever their number.
 
-marked_files(Exercise, Read, Submissions, Seeds, Options, Marked) :-
+marked_files(Exercise, Read, Submissions, Seeds, Kept, Options, Marked) :-
     enclosed(Options, Enclosed),
     findall(Program,
             ( nth1(Number, Submissions, Submission),
@@ -215,14 +240,24 @@ marked_files(Exercise, Read, Submissions, Seeds, Options, Marked) :-
             ( member(program(Number, _, _, _, ''), Programs),
               member(Seed, FirstSeeds) ),
             Jobs1),
-    Batch = batch(Exercise, Read, Programs, Enclosed, Options),
+    read_file_to_string(Exercise, Text, [encoding(utf8)]),
+    length(Seeds, SeedCount),
+    length(FirstSeeds, FirstCount),
+    length(Jobs1, Count),
+    All is SeedCount*Count//FirstCount,
+    progress_begins(All, SeedCount, Options),
+    Batch = batch(Exercise-Text, Read, Programs, Enclosed, Kept, Options),
     results(Jobs1, Batch, Results1),
     findall(Number-Seed,
             ( member(program(Number, _, _, _, ''), Programs),
               \+ hopeless(Number, FirstSeeds, Results1),
               member(Seed, Others) ),
             Jobs2),
+    length(Jobs2, Others2),
+    Skipped is All-Count-Others2,
+    runs_over(Skipped, Options),
     results(Jobs2, Batch, Results2),
+    progress_ends(Options),
     append(Results1, Results2, Results),
     findall(One,
             ( member(Program, Programs),
@@ -306,38 +341,92 @@ results(Again0, Jobs, Batch, Results) :-
     ;   Results = Results0
     ).
 
-batch_results([], _, []) :-
+%   Those that are kept need not be made.
+
+batch_results(Jobs, Batch, Results) :-
+    Batch = batch(kept: Kept, options: Options),
+    findall(job(Program, Seed, Result),
+            ( member(Program-Seed, Jobs),
+              run_key(Batch, Program-Seed, Key),
+              kept_run(Kept, Key, Result) ),
+            Known),
+    findall(Job,
+            ( member(Job, Jobs),
+              Job = Program-Seed,
+              \+ memberchk(job(Program, Seed, _), Known) ),
+            Others),
+    length(Known, Count),
+    runs_over(Count, Options),
+    made_results(Others, Batch, Made),
+    findall(job(Program, Seed, Result),
+            ( member(Program-Seed, Jobs),
+              (   memberchk(job(Program, Seed, Result0), Known)
+              ->  Result = Result0
+              ;   memberchk(job(Program, Seed, Result), Made)
+              ) ),
+            Results).
+
+%   All that a result depends on.
+
+run_key(batch(_-Text, _, Programs, Enclosed, _, _), Program-Seed, Key) :-
+    memberchk(program(Program, _, Files, _, _), Programs),
+    pack_version(Version),
+    variant_sha1(run(Version, Text, Enclosed, Files, Seed), Key).
+
+pack_version(Version) :-
+    pack_folder(Pack),
+    directory_file_path(Pack, 'pack.pl', File),
+    (   catch(read_file_to_terms(File, Facts, []), error(_, _), fail),
+        memberchk(version(Version0), Facts)
+    ->  Version = Version0
+    ;   Version = none
+    ).
+
+made_results([], _, []) :-
     !.
-batch_results(Jobs, batch(Exercise, Read, Programs, Enclosed, Options),
-              Results) :-
+made_results(Jobs, Batch, Results) :-
+    Batch = batch(Exercise, Read, Programs, Enclosed, _, Options),
     exercise_setting(Read, cpu(Cpu), 10),
     exercise_setting(Read, seconds(Seconds), 60),
     exercise_setting(Read, sleep(Sleep), 30),
     MostCpu is 2*(Cpu+Seconds) + 600,
     MostSleep is Sleep + 600,
-    tmp_file(ev3dev_marks, Base),
-    atom_concat(Base, '.pl', File),
-    findall(Option,
-            (   option(jobs(Count), Options),
-                Option = workers(Count)
-            ;   option(redis(Address), Options),
-                Option = redis(Address)
-            ),
-            BatchOptions),
+    processors(Processors),
+    option(jobs(Workers), Options, Processors),
+    must_be(positive_integer, Workers),
+    option(redis(Server), Options, none),
     length(Jobs, Count),
-    findall(N, between(1, Count, N), Numbers),
+    numlist(1, Count, Numbers),
     setup_call_cleanup(
-        write_batch(File, Jobs, Exercise, Programs, Enclosed),
-        sim_batch(File, marked, Numbers, Scores,
-                  [ world(none), sleep(MostSleep), cpu(MostCpu),
-                    progress(false)
-                  | BatchOptions ]),
-        delete_file(File)),
+        new_workplace(ev3dev_marks, Place),
+        ( directory_file_path(Place, 'batch.pl', File),
+          write_batch(File, Jobs, Exercise, Programs, Enclosed),
+          batch_runs(program(File, marked, none, [],
+                             limits(MostSleep, MostCpu)),
+                     Numbers, Workers, Server,
+                     ev3dev_marking_mark:results_come(Jobs, Batch), Done) ),
+        end_workplace(Place)),
     findall(job(Program, Seed, Result),
-            ( member(N-Score, Scores),
+            ( member(done(_, N, Score), Done),
               nth1(N, Jobs, Program-Seed),
               result_of(Score, Result) ),
             Results).
+
+:- public results_come/4.
+
+results_come(Jobs, Batch, Done0, Done) :-
+    Batch = batch(kept: Kept, options: Options),
+    once(append(New, Done0, Done)),
+    forall(( member(done(_, N, Score), New),
+             result_of(Score, Result),
+             nth1(N, Jobs, Job) ),
+           (   Result = result(ended: lost)
+           ->  true
+           ;   run_key(Batch, Job, Key),
+               keep_run(Kept, Key, Result)
+           )),
+    length(New, Count),
+    runs_over(Count, Options).
 
 %   What is wrong here is wrong with the exercise, or the machine.
 
@@ -347,15 +436,17 @@ result_of(Score, Result) :-
     ;   Score = error(Message),
         Message \== died
     ->  throw(error(system_error(Message), _))
-    ;   Result = result(Score, 0, none, 'The run was lost.', '', [], [])
+    ;   Result = result(lost, 0, none,
+                        'This run was lost: its process has ended.', '', [],
+                        [])
     ).
 
-write_batch(File, Jobs, Exercise, Programs, Enclosed) :-
-    read_file_to_string(Exercise, Text, [encoding(utf8)]),
+write_batch(File, Jobs, Exercise-Text, Programs, Enclosed) :-
     setup_call_cleanup(
         open(File, write, Out, [encoding(utf8)]),
         ( write_term_line(Out,
               (:- use_module(library(ev3dev/private/marking/run)))),
+          write_term_line(Out, (:- marking_place)),
           write_term_line(Out,
               (:- initialization(marking_exercise(Exercise, Text)))),
           forall(( member(program(Number, _, Its, _, ''), Programs),

@@ -51,6 +51,14 @@ reason(lost, _Output, _, _, _,
 reason(limit(output), _, _, _, Seconds, Reason) :-
     format(atom(Reason), 'Stopped after 1 MB of output (robot time ~1f s).',
            [Seconds]).
+reason(limit(memory), _, _, _, Seconds, Reason) :-
+    format(atom(Reason),
+           'Stopped: it used too much memory (robot time ~1f s).',
+           [Seconds]).
+reason(limit(processes), _, _, _, Seconds, Reason) :-
+    format(atom(Reason),
+           'Stopped: it started too many processes (robot time ~1f s).',
+           [Seconds]).
 reason(refused(Why), _, _, _, Seconds, Reason) :-
     format(atom(Reason),
            'Stopped at ~1f s: no program may ask the robot that: ~w.',

@@ -7,6 +7,8 @@
 :- fields(marked(name, mark, results, submission)).
 :- fields(class(participants, left, earlier, given)).
 
+:- fields(batch(exercise, read, programs, enclosed, kept, options)).
+
 /** <module> Records of marking
 
 A result is that of a run, see run.pl; a mark is that of exercise_mark/4;

@@ -1,5 +1,6 @@
 :- module(ev3dev_marking_run,
-          [ marking_exercise/2,         % +File, +Text
+          [ marking_place/0,
+            marking_exercise/2,         % +File, +Text
             marked_run/4                % +Files, +Seed, +Enclosed, -Result
           ]).
 :- use_module(read,
@@ -9,19 +10,30 @@
 :- use_module(record,
               [record_end/3, recorded/3, run_fact/1, with_record/4]).
 :- use_module(why, [collision_reason/1]).
-:- use_module('../files/directory', [new_directory/2]).
+:- use_module('../batch/message_text', [message_text/2]).
+:- use_module('../batch/workplace', [end_workplace/1, new_workplace/2]).
 :- use_module('../../sim', [with_sim/3]).
 :- use_module('../../sim_fenced', [sim_fenced/3]).
 :- use_module(library(filesex),
-              [ delete_directory_and_contents/1, directory_file_path/3,
-                make_directory_path/1 ]).
+              [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
 /** <module> One run of one program, in a process of the marker
 */
 
+:- meta_predicate or_lost(0).
+
 :- dynamic exercise/2.                  % Exercise, its text
+
+%!  marking_place is det.
+%
+%   The file that calls this while it is loaded is in a place of the marker,
+%   where its runs have theirs, too.
+
+marking_place :-
+    prolog_load_context(directory, Folder),
+    set_prolog_flag(tmp_dir, Folder).
 
 %!  marking_exercise(+File, +Text) is det.
 %
@@ -45,9 +57,25 @@ marking_exercise(File, Text) :-
 %   Run a program. Files are Path-Text, of which the first begins. Result is
 %   result(Ended, Seconds, Shares, Reason, Collision, Film, Collisions): the
 %   share of each score, a text of what went wrong or '', and one of how it
-%   ran into something, or ''.
+%   ran into something, or ''. Whatever the program leaves or breaks, so that
+%   nothing can be said of it, ends this run alone: it is lost.
+%
+%   @error what is wrong with the exercise
 
-marked_run([Name-Text|Others], Seed, Enclosed, Result) :-
+marked_run(Files, Seed, Enclosed, Result) :-
+    catch(run_of(Files, Seed, Enclosed, Result), lost_run(Error),
+          ( message_text(Error, Why0),
+            atom_concat('This run was lost: ', Why0, Why),
+            Result = result(lost, 0, none, Why, '', [], []) )).
+
+or_lost(Goal) :-
+    catch(Goal, error(Formal, Context),
+          (   Formal = existence_error(program, _)
+          ->  throw(error(Formal, Context))
+          ;   throw(lost_run(error(Formal, Context)))
+          )).
+
+run_of([Name-Text|Others], Seed, Enclosed, Result) :-
     exercise(Exercise, Salt),
     exercise_world(Exercise, Seed, World),
     exercise_setting(Exercise, goal(Goal), start),
@@ -57,29 +85,26 @@ marked_run([Name-Text|Others], Seed, Enclosed, Result) :-
     exercise_setting(Exercise, cpu(Cpu), 10),
     exercise_setting(Exercise, sleep(Sleep), 30),
     exercise_setting(Exercise, memory(Memory), 2000),
-    new_directory(ev3dev_mark, Directory),
-    directory_file_path(Directory, Name, File),
-    findall(Other,
-            ( member(Path-_, Others),
-              directory_file_path(Directory, Path, Other) ),
-            Beside),
+    Options = [ goal(Goal), seconds(Seconds), cpu(Cpu), sleep(Sleep),
+                memory(Memory), enclosed(Enclosed), files(Beside),
+                output(Output), told(Lines), salt(Salt) ],
     setup_call_cleanup(
-        forall(member(Path-Bytes, [Name-Text|Others]),
-               write_program(Directory, Path, Bytes)),
-        with_sim(World,
-                 ( exercise_happens(Exercise, Seed),
-                   with_record(sim_fenced(File, Ended,
-                                          [ goal(Goal), seconds(Seconds),
-                                            cpu(Cpu), sleep(Sleep),
-                                            memory(Memory),
-                                            enclosed(Enclosed),
-                                            files(Beside),
-                                            output(Output), told(Lines),
-                                            salt(Salt) ]),
-                               Seed, World, Robot),
-                   record_end(Ended, Output, Lines) ),
-                 [ clock(virtual), seed(Seed), noise(Noise), robot(Robot) ]),
-        delete_directory_and_contents(Directory)),
+        or_lost(new_workplace(ev3dev_mark, Directory)),
+        ( directory_file_path(Directory, Name, File),
+          findall(Other,
+                  ( member(Path-_, Others),
+                    directory_file_path(Directory, Path, Other) ),
+                  Beside),
+          forall(member(Path-Bytes, [Name-Text|Others]),
+                 or_lost(write_program(Directory, Path, Bytes))),
+          with_sim(World,
+                   ( exercise_happens(Exercise, Seed),
+                     with_record(or_lost(sim_fenced(File, Ended, Options)),
+                                 Seed, World, Robot),
+                     record_end(Ended, Output, Lines) ),
+                   [ clock(virtual), seed(Seed), noise(Noise),
+                     robot(Robot) ]) ),
+        end_workplace(Directory)),
     recorded(Film, Collisions, Took),
     reason(Ended, Output, File, limits(Cpu, Sleep), Took, Reason),
     (   Took =:= 0

@@ -113,7 +113,7 @@
             sim_fence_join_/1,          % _
             sim_fence_serve_/3,         % _, _, _
             sim_fence_silent_/0,
-            process_usage_/3,           % _, _, _
+            process_usage_/5,           % _, _, _, _, _
             sim_fence_close_/0,
             % src/ports.rs
             port_set_mode_/2,           % +Port, +Mode

@@ -4,13 +4,14 @@
                                         % +Used0, -Used
             usage_heard/2,              % +Used0, -Used
             usage_age/2,                % +Used, -Seconds
-            usage_beyond/3              % +Used, +Limits, -Limit
+            usage_beyond/3,             % +Used, +Limits, -Limit
+            usage_crowded/3             % +Used, +Megabytes, -Limit
           ]).
 :- use_module('../basics/fields',
               [fields/1, goal_expansion/2, term_expansion/2]).
-:- use_module('../native/native', [process_usage_/3]).
+:- use_module('../native/native', [process_usage_/5]).
 
-:- fields(used(began, alive, looked, cpu, slept, rest)).
+:- fields(used(began, alive, looked, cpu, slept, rest, threads, bytes)).
 
 :- meta_predicate usage_goes_on(+, +, 0, +, -).
 
@@ -20,10 +21,11 @@ Seconds in which a process sleeps are counted, and seconds of a processor. So
 no other process can make this one come to its limits: while it waits for a
 processor, nothing is counted.
 
-used(Began, Alive, Looked, Cpu, Slept, Rest) has times of the wall: when this
-began, when there was the last sign of life, and when the process was last
-looked at. Cpu and Slept are seconds. Rest says how often its threads had left
-a processor by then, if all of them were asleep, else it is `awake`.
+used(Began, Alive, Looked, Cpu, Slept, Rest, Threads, Bytes) has times of the
+wall: when this began, when there was the last sign of life, and when the
+process was last looked at. Cpu and Slept are seconds. Rest says how often
+its threads had left a processor by then, if all of them were asleep, else it
+is `awake`. Threads and Bytes are how many they had.
 */
 
 %   How long there may be no sign of life, and how long a run may take, in
@@ -38,7 +40,7 @@ most_between(1).
 
 %!  usage_begins(-Used) is det.
 
-usage_begins(used(Now, Now, Now, 0, 0, awake)) :-
+usage_begins(used(Now, Now, Now, 0, 0, awake, 0, 0)) :-
     get_time(Now).
 
 %!  usage_goes_on(+Process, +Slice, :Silent, +Used0, -Used) is det.
@@ -48,13 +50,15 @@ usage_begins(used(Now, Now, Now, 0, 0, awake)) :-
 %   between, else for Slice seconds.
 
 usage_goes_on(Process, Slice, Silent,
-              used(Began, Alive0, Looked, Cpu0, Slept0, Rest0),
-              used(Began, Alive, Now, Cpu, Slept, Rest)) :-
+              used(Began, Alive0, Looked, Cpu0, Slept0, Rest0, _, _),
+              used(Began, Alive, Now, Cpu, Slept, Rest, Threads, Bytes)) :-
     get_time(Now),
-    (   process_usage_(Process, Cpu1, Rest1)
+    (   process_usage_(Process, Cpu1, Rest1, Threads, Bytes)
     ->  Cpu is max(Cpu0, Cpu1)
     ;   Cpu = Cpu0,
-        Rest1 = awake
+        Rest1 = awake,
+        Threads = 0,
+        Bytes = 0
     ),
     (   Cpu > Cpu0
     ->  Alive = Now
@@ -76,9 +80,10 @@ usage_goes_on(Process, Slice, Silent,
 %
 %   The process gave a sign of life.
 
-usage_heard(used(Began, _, Looked, Cpu, Slept, Rest),
-            used(Began, Now, Looked, Cpu, Slept, Rest)) :-
-    get_time(Now).
+usage_heard(Used0, Used) :-
+    get_time(Now),
+    Used0 = used(Began, _, Looked, Cpu, Slept, Rest, Threads, Bytes),
+    Used = used(Began, Now, Looked, Cpu, Slept, Rest, Threads, Bytes).
 
 %!  usage_age(+Used, -Seconds) is det.
 %
@@ -99,9 +104,10 @@ usage_beyond(Used, limits(Sleep, _), limit(sleep)) :-
     Sleep \== infinite,
     Slept > Sleep,
     !.
-usage_beyond(used(_, _, _, Used, _, _), limits(_, Cpu), limit(cpu)) :-
+usage_beyond(Used, limits(_, Cpu), limit(cpu)) :-
+    Used = used(cpu: Time),
     Cpu \== infinite,
-    Used > Cpu,
+    Time > Cpu,
     !.
 usage_beyond(Used, limits(_, Cpu), lost) :-
     Used = used(began: Began, alive: Alive, looked: Looked),
@@ -112,3 +118,21 @@ usage_beyond(Used, limits(_, Cpu), lost) :-
     ;   Cpu \== infinite,
         Looked > Began + max(Most, 10*Cpu)
     ).
+
+%!  usage_crowded(+Used, +Megabytes, -Limit) is semidet.
+%
+%   Limit is limit(processes) if there are more threads than a program of a
+%   robot needs, or limit(memory) if they have more than Megabytes together,
+%   which may be `unlimited`.
+
+most_threads(200).
+
+usage_crowded(Used, _, limit(processes)) :-
+    Used = used(threads: Threads),
+    most_threads(Most),
+    Threads > Most,
+    !.
+usage_crowded(Used, Megabytes, limit(memory)) :-
+    Used = used(bytes: Bytes),
+    Megabytes \== unlimited,
+    Bytes > Megabytes << 20.

@@ -1,0 +1,80 @@
+:- module(ev3dev_marking_progress,
+          [ progress_begins/3,          % +All, +Seeds, +Options
+            runs_over/2,                % +Count, +Options
+            progress_ends/1             % +Options
+          ]).
+:- use_module('../basics/fields', [fields/1, goal_expansion/2]).
+:- use_module('../checks/arguments', [option/3]).
+
+/** <module> How far a marking is
+
+On a terminal one line says it, which is written again each time. In a file
+there is a line for every ten programs. The time that is left is a guess by
+that of the runs that are over.
+*/
+
+:- fields(progress(all, seeds, began, over)).
+
+:- dynamic progress/4.
+:- volatile progress/4.
+
+%!  progress_begins(+All, +Seeds, +Options) is det.
+%
+%   There are All runs, one of each program for each of Seeds seeds. Options
+%   may have progress(true); else nothing is said.
+
+progress_begins(All, Seeds, _) :-
+    retractall(progress(all: _)),
+    get_time(Now),
+    assertz(progress(All, Seeds, Now, 0)).
+
+%!  runs_over(+Count, +Options) is det.
+
+runs_over(Count, Options) :-
+    retract(progress(All, Seeds, Began, Over0)),
+    Over is Over0+Count,
+    assertz(progress(All, Seeds, Began, Over)),
+    (   Count > 0,
+        option(progress(true), Options, false)
+    ->  get_time(Now),
+        Left is (Now-Began) * max(0, All-Over) / Over,
+        time_left(Left, Text),
+        Programs0 is Over0//Seeds,
+        Programs is Over//Seeds,
+        AllPrograms is All//Seeds,
+        (   stream_property(user_error, tty(true))
+        ->  print_message(help, ev3dev(marking_now(Over, All, Text)))
+        ;   Programs//10 > Programs0//10
+        ->  print_message(help,
+                          ev3dev(marking(Programs, AllPrograms, Text)))
+        ;   true
+        )
+    ;   true
+    ).
+
+time_left(Seconds, Text) :-
+    (   Seconds < 60
+    ->  format(atom(Text), '~0f s', [Seconds])
+    ;   Minutes is Seconds/60,
+        format(atom(Text), '~0f min', [Minutes])
+    ).
+
+%!  progress_ends(+Options) is det.
+
+progress_ends(Options) :-
+    retractall(progress(all: _)),
+    (   option(progress(true), Options, false),
+        stream_property(user_error, tty(true))
+    ->  print_message(help, ev3dev(marking_over))
+    ;   true
+    ).
+
+:- multifile prolog:message//1.
+
+prolog:message(ev3dev(marking_now(Over, All, Left))) -->
+    [ at_same_line, '\r~d of ~d runs; about ~w left.   '-[Over, All, Left],
+      flush ].
+prolog:message(ev3dev(marking(Over, All, Left))) -->
+    [ '~d of ~d programs; about ~w left.'-[Over, All, Left] ].
+prolog:message(ev3dev(marking_over)) -->
+    [ at_same_line, '\r~t~60|\r'-[], flush ].
