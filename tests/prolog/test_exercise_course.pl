@@ -35,12 +35,18 @@ edited(Old-New, Text0, Text) :-
     string_concat(Head, New, Text1),
     string_concat(Text1, Tail, Text).
 
+%   The solution, and with few cases some of the others.
+tried(Folder, solution, Of, Edits) :-
+    course_program(Folder, solution, Of, Edits, _, _).
+tried(Folder, Name, Of, Edits) :-
+    some(( course_program(Folder, Name, Of, Edits, _, _), Name \== solution )).
+
 %   What programs of that exercise earn that deserve more or less.
 unfair(Folder, Exercise, Options, Unfair) :-
     tmp_file(course, Directory),
     make_directory(Directory),
     findall(Name-File,
-            ( course_program(Folder, Name, Of, Edits, _, _),
+            ( tried(Folder, Name, Of, Edits),
               text_of(Exercise, Of, Edits, Text),
               format(atom(File), '~w/~w.pl', [Directory, Name]),
               setup_call_cleanup(open(File, write, Out, [encoding(utf8)]),
