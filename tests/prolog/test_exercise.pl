@@ -67,7 +67,7 @@ mark_files(Files, Options, Marks) :-
     atom_concat(Folder, '/exercise', Exercise),
     ( can_enclose -> Fence = [] ; Fence = [enclosed(false)] ),
     append(Options, Fence, All),
-    once(exercise_mark(Exercise, Files, All, Marks)).
+    quietly(exercise_mark(Exercise, Files, All, Marks)).
 
 :- meta_predicate quietly(0).
 

@@ -228,10 +228,10 @@ impl Kept {
                     self.reads.push((Self::read(question), until, answer.clone()));
                 }
             }
-            Kind::Pass => self.nothing_happens_until(answer.number),
+            Kind::Pass => self.nothing_happens_until(at, answer.number),
             Kind::Write => match answer.number_in_bytes() {
                 Some(until) => {
-                    self.nothing_happens_until(until);
+                    self.nothing_happens_until(at, until);
                     self.forget_reads(number);
                     self.writes.push((number, offset, bytes.to_vec()));
                 }
@@ -242,12 +242,12 @@ impl Kept {
         }
     }
 
-    fn nothing_happens_until(&mut self, nanos: u64) {
-        let until = Duration::from_nanos(nanos);
-        if self.until != until {
-            self.until = until;
+    /// Said by an answer at a moment.
+    fn nothing_happens_until(&mut self, at: Duration, nanos: u64) {
+        if at >= self.until {
             self.writes.clear();
         }
+        self.until = Duration::from_nanos(nanos);
     }
 }
 
