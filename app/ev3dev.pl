@@ -208,10 +208,14 @@ call_command(jog, [], Options) :-
     Jog = ev3dev_jog:jog([speed(Speed)]),
     call(Jog).
 
-%   A folder with one, a file, or one of the course.
+%   A folder with one, a file, or one of the course, by its name, its number
+%   or a part that no other one has.
 
 exercise_file(Exercise, File) :-
-    (   member(Where, [ Exercise, ev3dev_pack(course/Exercise) ]),
+    (   (   member(Where, [ Exercise, ev3dev_pack(course/Exercise) ])
+        ;   part_of_course(Exercise, Name),
+            Where = ev3dev_pack(course/Name)
+        ),
         (   absolute_file_name(Where, Folder,
                                [file_type(directory), file_errors(fail)]),
             atom_concat(Folder, '/exercise.pl', File),
@@ -224,6 +228,21 @@ exercise_file(Exercise, File) :-
     ->  true
     ;   no_such(exercise, Exercise)
     ).
+
+part_of_course(Exercise, Name) :-
+    absolute_file_name(ev3dev_pack(course), Course,
+                       [file_type(directory), file_errors(fail)]),
+    directory_files(Course, Names),
+    findall(Name0,
+            ( member(Name0, Names),
+              sub_atom(Name0, 2, 1, _, -),
+              (   atom_number(Exercise, Number)
+              ->  sub_atom(Name0, 0, 2, _, Digits),
+                  atom_number(Digits, Number)
+              ;   sub_atom(Name0, 3, _, 0, Words),
+                  once(sub_atom(Words, _, _, _, Exercise))
+              ) ),
+            [Name]).
 
 a_file(File) :-
     (   exists_file(File)

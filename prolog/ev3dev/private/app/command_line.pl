@@ -270,13 +270,24 @@ named('ROBOT', robot, library(ev3dev/robots)).
 complain(Arguments, Format, Values) :-
     (   Arguments = [Command|_],
         command(Command, _, _)
-    ->  Words = [swipl, ev3dev, Command, '--help']
-    ;   Words = [swipl, ev3dev, '--help']
+    ->  Words = [swipl, App, Command, '--help']
+    ;   Words = [swipl, App, '--help']
     ),
+    typed(App),
     atomic_list_concat(Words, ' ', Help),
     format(user_error, "ev3dev: ", []),
     format(user_error, Format, Values),
     format(user_error, "~nSee: ~w~n", [Help]).
+
+%   What was typed after `swipl`: Prologs before 9.1.18 have no apps.
+
+typed(App) :-
+    (   current_prolog_flag(os_argv, [_|Arguments]),
+        member(App, Arguments),
+        atom_concat(_, 'ev3dev.pl', App)
+    ->  true
+    ;   App = ev3dev
+    ).
 
 % ---------------- HELP
 
@@ -298,7 +309,8 @@ is_help([First|Rest], Command) :-
 %!  help(+Command) is det.
 
 help(all) :-
-    format("swipl ev3dev COMMAND [ARGUMENT] [OPTION ...]~n~n", []),
+    typed(App),
+    format("swipl ~w COMMAND [ARGUMENT] [OPTION ...]~n~n", [App]),
     forall(command(Name, Argument, Text), line([Name, ' ', Argument], Text)),
     nl,
     line(['COMMAND --help'], 'the options of a command'),

@@ -3,7 +3,8 @@
             goal_of_program/1,          % :Goal
             in_pack/3,                  % +Predicate, -Module, -Indicator
             is_of_system/1,             % +Predicate
-            is_public/2                 % ?Module, +Indicator
+            is_public/2,                % ?Module, +Indicator
+            program/1                   % ?File
           ]).
 
 /** <module> The frames between an error and the program
@@ -92,3 +93,16 @@ is_of_system(_/_).
 is_of_system(Module:_) :-
     module_property(Module, class(Class)),
     memberchk(Class, [system, library]).
+
+%!  program(?File) is nondet.
+%
+%   True if File is loaded, and is neither Prolog's nor the pack's.
+
+program(File) :-
+    source_file(File),
+    \+ ( (   current_prolog_flag(home, Folder)
+         ;   module_property(ev3dev, file(Ev3dev)),
+             file_directory_name(Ev3dev, Folder)
+         ),
+         sub_atom(File, 0, _, _, Folder)
+       ).

@@ -166,14 +166,26 @@ prolog:message(error(resource_error(_), Overflow)) -->
     { nonvar(Overflow),
       is_dict(Overflow, stack_overflow),
       fills(Overflow, Call),
-      shown(Call, Shown),
       functor(Call, Name, Arity),
       current_prolog_flag(stack_limit, Limit),
       Megabytes is ceiling(Limit/1048576)
     },
-    [ '~q calls itself without end: the stack of ~d MB is full. '-
-      [Name/Arity, Megabytes],
-      'Its last call was ~w'-[Shown] ].
+    [ '~q calls itself without end: the stack of ~d MB is full'-
+      [Name/Arity, Megabytes] ],
+    last_call(Call).
+
+%   Parts of large arguments are left out there.
+
+last_call(Call) -->
+    { Call =.. [_|Arguments],
+      Arguments \== [],
+      \+ ( one_of(Arguments, Argument), \+ atomic(Argument) ),
+      shown(Call, Shown)
+    },
+    !,
+    [ '. Its last call was ~w'-[Shown] ].
+last_call(_) -->
+    [].
 
 fills(Overflow, Call) :-
     one_of([cycle, non_terminating, stack], Key),

@@ -8,10 +8,9 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(error_messages, [call_line/3, in_words//1, short/2]).
-:- use_module(queries, [program/1]).
 :- use_module('../basics/small_lists', [one_of/2]).
 :- use_module('../errors/error_texts', [shown/2]).
-:- use_module('../errors/frames', [in_pack/3]).
+:- use_module('../errors/frames', [in_pack/3, program/1]).
 
 /** <module> The goal of a program that was called last
 

@@ -1,8 +1,7 @@
-:- module(ev3dev_queries,
-          [ program/1                   % ?File
-          ]).
+:- module(ev3dev_queries, []).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module('../basics/small_lists', [one_of/2]).
+:- use_module('../errors/frames', [program/1]).
 :- use_module('../native/native', [running_/1]).
 
 /** <module> What is said around a query of the toplevel
@@ -59,19 +58,6 @@ of_libraries :-
              sub_atom(Module, 0, _, _, ev3dev),
              module_property(Module, class(user)) ),
            set_module(Module:class(library))).
-
-%!  program(?File) is nondet.
-%
-%   True if File is loaded, and is neither Prolog's nor the pack's.
-
-program(File) :-
-    source_file(File),
-    \+ ( (   current_prolog_flag(home, Folder)
-         ;   module_property(ev3dev, file(Ev3dev)),
-             file_directory_name(Ev3dev, Folder)
-         ),
-         sub_atom(File, 0, _, _, Folder)
-       ).
 
 calls(Query, Goal) :-
     callable(Query),

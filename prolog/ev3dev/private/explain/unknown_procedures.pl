@@ -142,7 +142,18 @@ instead(Name/Arity, Said, Predicates) :-
         \+ is_corrected(Goal),
         ask(signatures, meant(Name/Arity, Predicates))
     ->  Said = 'Did you mean'
+    ;   functor(Goal, Name, Arity),
+        setof(Predicate, misspelt(Goal, Predicate), Predicates)
+    ->  Said = 'Did you mean'
     ).
+
+%   Predicate is one of the pack, which the user sees.
+
+misspelt(Goal, Name/Arity) :-
+    dwim_predicate(user:Goal, Other0),
+    strip_module(Other0, _, Other),
+    functor(Other, Name, Arity),
+    is_public(_, Name/Arity).
 
 where(Context, Where) :-
     (   nonvar(Context),

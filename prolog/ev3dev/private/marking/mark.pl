@@ -4,6 +4,7 @@
             check_solution/2            % +Exercise, +Options
           ]).
 :- use_module('../basics/fields', [goal_expansion/2, term_expansion/2]).
+:- use_module(explained, [explained/5]).
 :- use_module(records, []).
 :- use_module('../batch/batch', [batch_runs/6, processors/1]).
 :- use_module('../batch/workplace', [end_workplace/1, new_workplace/2]).
@@ -141,7 +142,16 @@ seeds(Read, Which, Options, Seeds) :-
 
 tried(Exercise0, File, Options) :-
     exercise_to_mark(Exercise0, Exercise, Read),
+    \+ has_own_world(Read, File, Options),
+    (   stream_property(user_error, tty(true))
+    ->  format(user_error, "Trying ~w ...~n", [File])
+    ;   true
+    ),
     printed(Exercise, Read, open, File, Options, Marked),
+    (   earned_all(Marked)
+    ->  true
+    ;   print_why(Read, Options, Marked)
+    ),
     (   option(page(Page), Options)
     ->  use_module(library(ev3dev/private/marking/report), []),
         ev3dev_marking_report:write_page(Page, Read, all, Marked),
@@ -149,6 +159,22 @@ tried(Exercise0, File, Options) :-
     ;   true
     ),
     earned_all(Marked).
+
+%   A simulation of its own is another one, in which a run takes a minute.
+
+has_own_world(Read, File, Options) :-
+    own_submission(File, Submission),
+    program(Submission, 1, Read, program(_, _, Files, _, '')),
+    member(_-Text, Files),
+    member(Word, ["sim_start", "with_sim"]),
+    once(sub_string(Text, _, _, _, Word)),
+    enclosed(Options, Enclosed),
+    seeds(Read, open, Options, [Seed|_]),
+    explained(Read, Files, Seed, Enclosed, Lines),
+    member(Line, Lines),
+    sub_string(Line, _, _, 0, "the exercise has its own world"),
+    !,
+    format("~w~n", [Line]).
 
 %!  check_solution(+Exercise, +Options) is semidet.
 
@@ -158,7 +184,8 @@ check_solution(Exercise0, Options) :-
     file_directory_name(Exercise, Folder),
     directory_file_path(Folder, Solution, File),
     printed(Exercise, Read, all, File, Options, Marked),
-    Marked = marked(mark: mark(runs: Runs)),
+    Marked = marked(mark: mark(runs: Runs, reason: Reason)),
+    print_reason(Reason),
     findall(Earned-Seed, member(run(Seed, Earned, _, _), Runs), Pairs),
     keysort(Pairs, [Least-LeastSeed|_]),
     findall(Earned, member(Earned-_, Pairs), All),
@@ -201,15 +228,37 @@ printed(Exercise, Read, Which, File, Options, Marked) :-
     own_submission(File, Submission),
     marked_files(Exercise, Read, [Submission], Seeds, none, Options,
                  [Marked]),
-    Marked = marked(mark: mark(_, Points, Of, Scores, Runs, Reason),
-                    results: Results),
+    Marked = marked(mark: mark(_, Points, Of, Scores, Runs, _)),
     length(Runs, Count),
     forall(member(Score, Scores), print_score(Score, Count)),
-    format("Together: ~w of ~w points, in ~d runs.~n", [Points, Of, Count]),
-    ( Reason == '' -> true ; format("~w~n", [Reason]) ),
-    forall(( member(result(Seed, result(collision: Text)), Results),
-             Text \== '' ),
-           format("With the seed ~w: ~w~n", [Seed, Text])).
+    format("Together: ~w of ~w points, in ~d runs.~n", [Points, Of, Count]).
+
+print_reason(Reason) :-
+    ( Reason == '' -> true ; format("~w~n", [Reason]) ).
+
+%   The worst run is made again, and watched. A syntax error says all itself,
+%   as does what ended a run from outside.
+
+print_why(Read, Options, Marked) :-
+    Marked = marked(mark: mark(runs: Runs, reason: Reason),
+                    results: Results, submission: Submission),
+    (   \+ sub_atom(Reason, _, _, _, 'Line '),
+        program(Submission, 1, Read, program(_, _, Files, _, '')),
+        findall(Earned-Seed, member(run(Seed, Earned, _, _), Runs), Pairs),
+        keysort(Pairs, [_-Worst|_]),
+        enclosed(Options, Enclosed),
+        explained(Read, Files, Worst, Enclosed, [Line|Lines])
+    ->  format("With the seed ~w:~n", [Worst]),
+        forall(member(Text, [Line|Lines]), format("  ~w~n", [Text])),
+        (   sub_atom(Reason, 0, _, _, 'Stopped')
+        ->  print_reason(Reason)
+        ;   true
+        )
+    ;   print_reason(Reason)
+    ),
+    forall(( member(result(Seed, result(collision: Hit)), Results),
+             Hit \== '' ),
+           format("With the seed ~w: ~w~n", [Seed, Hit])).
 
 print_score(score(Text, Points, Of, Missed), Count) :-
     format("  ~w~t~8|of ~w~t~16|~w", [Points, Of, Text]),

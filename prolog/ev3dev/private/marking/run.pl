@@ -1,7 +1,9 @@
 :- module(ev3dev_marking_run,
           [ marking_place/0,
             marking_exercise/2,         % +File, +Text
-            marked_run/4                % +Files, +Seed, +Enclosed, -Result
+            marked_run/4,               % +Files, +Seed, +Enclosed, -Result
+            fenced_run/6                % +Marking, +Files, +Goal, +Seed,
+                                        % +Enclosed, -Ended
           ]).
 :- use_module(read,
               [ exercise_happens/2, exercise_setting/3, exercise_world/3,
@@ -77,8 +79,44 @@ or_lost(Goal) :-
 
 run_of([Name-Text|Others], Seed, Enclosed, Result) :-
     exercise(Exercise, Salt),
-    exercise_world(Exercise, Seed, World),
     exercise_setting(Exercise, goal(Goal), start),
+    fenced_run(Exercise-Salt, [Name-Text|Others], Goal, Seed, Enclosed,
+               ended(Ended, Output, File)),
+    exercise_setting(Exercise, cpu(Cpu), 10),
+    exercise_setting(Exercise, sleep(Sleep), 30),
+    recorded(Film, Collisions, Took),
+    reason(Ended, Output, File, limits(Cpu, Sleep), Took, Reason),
+    (   Took =:= 0
+    ->  Shares = none,
+        ( Reason == '' -> Reason1 = 'It did not use the robot.'
+        ; Reason1 = Reason )
+    ;   memberchk(Ended, [over, exit(_)])
+    ->  score_shares(Exercise, Shares),
+        (   Reason == '',
+            run_fact(commands(0)),
+            member(Share, Shares),
+            Share < 1
+        ->  Reason1 = 'It started no motor.'
+        ;   Reason1 = Reason
+        )
+    ;   Shares = none,
+        Reason1 = Reason
+    ),
+    (   collision_reason(Collision)
+    ->  true
+    ;   Collision = ''
+    ),
+    Result = result(Ended, Took, Shares, Reason1, Collision, Film,
+                    Collisions).
+
+%!  fenced_run(+Marking, +Files, +Goal, +Seed, +Enclosed, -Ended) is det.
+%
+%   Run the program Files, which begins with Goal, and record it. Marking is
+%   Exercise-Salt; Ended is ended(How, Output, File).
+
+fenced_run(Exercise-Salt, [Name-Text|Others], Goal, Seed, Enclosed,
+           ended(Ended, Output, File)) :-
+    exercise_world(Exercise, Seed, World),
     exercise_setting(Exercise, seconds(Seconds), 60),
     exercise_setting(Exercise, noise(Noise), false),
     exercise_setting(Exercise, robot(Robot), default),
@@ -104,31 +142,7 @@ run_of([Name-Text|Others], Seed, Enclosed, Result) :-
                      record_end(Ended, Output, Lines) ),
                    [ clock(virtual), seed(Seed), noise(Noise),
                      robot(Robot) ]) ),
-        end_workplace(Directory)),
-    recorded(Film, Collisions, Took),
-    reason(Ended, Output, File, limits(Cpu, Sleep), Took, Reason),
-    (   Took =:= 0
-    ->  Shares = none,
-        ( Reason == '' -> Reason1 = 'It did not use the robot.'
-        ; Reason1 = Reason )
-    ;   memberchk(Ended, [over, exit(_)])
-    ->  score_shares(Exercise, Shares),
-        (   Reason == '',
-            run_fact(commands(0)),
-            member(Share, Shares),
-            Share < 1
-        ->  Reason1 = 'It started no motor.'
-        ;   Reason1 = Reason
-        )
-    ;   Shares = none,
-        Reason1 = Reason
-    ),
-    (   collision_reason(Collision)
-    ->  true
-    ;   Collision = ''
-    ),
-    Result = result(Ended, Took, Shares, Reason1, Collision, Film,
-                    Collisions).
+        end_workplace(Directory)).
 
 write_program(Directory, Path, Bytes) :-
     directory_file_path(Directory, Path, File),

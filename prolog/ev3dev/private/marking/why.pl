@@ -29,9 +29,27 @@ collision_reason(Text) :-
             Sensors),
     (   Sensors = [_|_]
     ->  atomic_list_concat(Sensors, '; ', Seen),
-        format(atom(Text), '~w Its sensors: ~w.', [Text1, Seen])
-    ;   Text = Text1
+        format(atom(Text2), '~w Its sensors: ~w.', [Text1, Seen])
+    ;   Text2 = Text1
+    ),
+    findall(Port, unread(Port), Ports),
+    (   Ports = [_|_]
+    ->  atomic_list_concat(Ports, ', ', Listed),
+        format(atom(Text), '~w The program had not read ~w.',
+               [Text2, Listed])
+    ;   Text = Text2
     ).
+
+%   A sensor of distances, which could have warned.
+
+unread(Port) :-
+    run_fact(robot(Facts)),
+    findall(Port0-Type, member(sensor(Port0, Type, _, _, _), Facts),
+            Sensors),
+    nth0(Index, Sensors, Port-Type),
+    memberchk(Type, ['lego-ev3-us', 'lego-nxt-us', 'lego-ev3-ir']),
+    format(atom(Device), 'sensor~d/', [Index]),
+    \+ ( run_fact(seen(_, File, _)), sub_atom(File, _, _, _, Device) ).
 
 %   The simulator numbers the sensors of a robot in the order of its facts. An
 %   ultrasonic sensor shows tenths of a cm, unless it has another mode.

@@ -1,0 +1,293 @@
+:- module(ev3dev_watched_run,
+          [ watched_run/2               % +Seconds, :Goal
+          ]).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module(last_goal, [outcome/2, watched/4]).
+:- use_module('../basics/small_lists', [append_lists/3, one_of/2]).
+:- use_module('../errors/error_texts', [shown/2]).
+:- use_module('../errors/frames', [program/1]).
+:- use_module('../native/native', [now_/1]).
+:- use_module('../run/waits', [leave/2, listening/3]).
+:- use_module(library(lists), [nth1/3]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+
+/** <module> A run of a program that is to be explained
+
+`swipl ev3dev try` makes one more run of a program that has not earned all
+points. In its process, this module prints what it finds out, each in a line
+that begins with `ev3dev-why` and a tab.
+*/
+
+:- meta_predicate watched_run(+, 0).
+
+:- dynamic recurs/1.                    % Name/Arity
+
+%!  watched_run(+Seconds, :Goal) is det.
+%
+%   Call Goal for Seconds of the robot's time, and print why it may not have
+%   done what was asked.
+
+watched_run(Seconds, _:Goal) :-
+    outcome(true, _),                   % watches from now on
+    functor(Goal, Name, Arity),
+    (   current_predicate(user:Name/Arity)
+    ->  runs(Seconds, Goal)
+    ;   findall(Other, other_goal(Other), Others),
+        instead(Others, Name, Instead),
+        why('there is no ~q/~d~w', [Name, Arity, Instead])
+    ).
+
+runs(Seconds, Goal) :-
+    now_(Now),
+    Until is Now+Seconds,
+    watch(Goal),
+    set_prolog_flag(stack_limit, 100000000),    % full before its time is over
+    (   reachable(Goal, Called),
+        out_of_place(Called, Advice)
+    ->  place_of(Called, Place),
+        why('~w~w', [Place, Advice])
+    ;   outcome(listening(0.1, ev3dev_watched_run:tick(Until), user:Goal),
+                Outcome),
+        said(Outcome, Goal)
+    ).
+
+tick(Until, Listener) :-
+    now_(Now),
+    (   Now < Until
+    ->  true
+    ;   leave(Listener, ev3dev_time_is_over)
+    ).
+
+why(Format, Arguments) :-
+    format(user_error, 'ev3dev-why\t', []),
+    format(user_error, Format, Arguments),
+    nl(user_error).
+
+said(true, Goal) :-
+    timeless(Goal).
+said(false, Goal) :-
+    said_by('', ev3dev(failed(Goal))),
+    timeless(Goal).
+said(thrown(Ball), Goal) :-
+    (   Ball == ev3dev_time_is_over
+    ->  timeless(Goal),
+        forall(endless(Text), why('~w', [Text]))
+    ;   (   in_rule(Ball, Place)
+        ->  nb_setval(ev3dev_last_goal, [])
+        ;   Place = ''
+        ),
+        said_by(Place, ev3dev(thrown(Ball)))
+    ).
+
+%   The line of the rule whose guard or action is to blame.
+
+in_rule(error(_, Context), Place) :-
+    nonvar(Context),
+    Context = context(_, Text),
+    atom(Text),
+    sub_atom(Text, _, _, 0, Text1),
+    atom_concat('rule ', Text2, Text1),
+    atomic_list_concat([Rule|_], ';', Text2),
+    program(Path),
+    line_of(Path, Rule, Line),
+    !,
+    file_base_name(Path, File),
+    format(atom(Place), '~w:~d: ', [File, Line]).
+
+line_of(Path, Rule, Line) :-
+    read_file_to_string(Path, Text, []),
+    split_string(Text, "\n", "", Lines),
+    nth1(Line, Lines, Text1),
+    split_string(Text1, ":", " ", [Begin, ""|_]),
+    atom_string(Rule, Begin),
+    !.
+
+said_by(Place, Message) :-
+    phrase(prolog:message(Message), Lines),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, '', Lines)),
+    split_string(Text, "\n", " \t", Parts0),
+    findall(Part, ( one_of(Parts0, Part), Part \== "" ), Parts),
+    atomic_list_concat(Parts, ' ', Line),
+    why('~w~w', [Place, Line]).
+
+% ---------------- NO SUCH GOAL
+
+%   A predicate without arguments that no clause of the program calls.
+
+other_goal(Name) :-
+    program(File),
+    source_file(user:Head, File),
+    functor(Head, Name, 0),
+    \+ calls(_, user:Name).
+
+instead([], _, '').
+instead([Other|Others], Name, Instead) :-
+    (   one_of([Other|Others], Near),
+        dwim_match(Name, Near)
+    ->  true
+    ;   Others == [],
+        Near = Other
+    ),
+    !,
+    format(atom(Instead), ': your file has ~q/0, so call that ~q',
+           [Near, Name]).
+instead(_, _, '').
+
+% ---------------- WHAT CALLS WHAT
+
+calls(Caller, Called) :-
+    watched(Clause, _, Head, Tail),
+    clause_property(Clause, predicate(Caller0)),
+    Caller0 = Module:Name/Arity,
+    functor(Plain, Name, Arity),
+    Caller = Module:Plain,
+    (   Head = _:_,
+        Called = Head
+    ;   Tail = tail(_, _, Of:Name1/Arity1),
+        functor(Plain1, Name1, Arity1),
+        Called = Of:Plain1
+    ).
+
+reachable(Goal, Called) :-
+    functor(Goal, Name, Arity),
+    functor(Head, Name, Arity),
+    reached([user:Head], [], All),
+    one_of(All, Called).
+
+reached([], All, All).
+reached([Head|Heads], Seen, All) :-
+    (   one_of(Seen, Before),
+        Before =@= Head
+    ->  reached(Heads, Seen, All)
+    ;   findall(Called, ( calls(Caller, Called), Caller =@= Head ), Calls),
+        append_lists(Calls, Heads, Heads1),
+        reached(Heads1, [Head|Seen], All)
+    ).
+
+place_of(Called, Place) :-
+    watched(Clause, _, Head, Tail),
+    (   Head = _:_,
+        Head =@= Called
+    ->  true
+    ;   Tail = tail(_, _, _:Name/Arity),
+        Called = _:Plain,
+        functor(Plain, Name, Arity)
+    ),
+    clause_property(Clause, file(Path)),
+    clause_property(Clause, line_count(Line)),
+    file_base_name(Path, File),
+    !,
+    format(atom(Place), '~w:~d: ', [File, Line]).
+place_of(_, '').
+
+%   What has no place in an exercise: a simulation of its own.
+
+out_of_place(_:Goal, Advice) :-
+    functor(Goal, Name, Arity),
+    memberchk(Name/Arity, [ sim_start/1, sim_start/2, with_sim/2,
+                            with_sim/3 ]),
+    format(atom(Advice), 'take ~q/~d out: the exercise has its own world',
+           [Name, Arity]).
+
+%   What looks at another clock than the robot's.
+
+timeless(Goal) :-
+    findall(Advice,
+            ( reachable(Goal, _:Called),
+              functor(Called, Name, Arity),
+              of_wall(Name/Arity, Instead),
+              place_of(user:Called, Place),
+              format(atom(Advice), '~w~q does not follow the robot\'s \c
+                     time: use ~w', [Place, Name/Arity, Instead]) ),
+            Advices),
+    forall(one_of(Advices, Advice), why('~w', [Advice])).
+
+of_wall(sleep/1, 'wait/1').
+of_wall(get_time/1, 'ev3_time/1').
+of_wall(thread_get_message/3, 'wait/1').
+of_wall(call_with_time_limit/2, 'library(ev3dev/events)').
+of_wall(alarm/3, 'library(ev3dev/events)').
+of_wall(alarm/4, 'library(ev3dev/events)').
+
+% ---------------- CALLS ITSELF WITHOUT END
+
+watch(Goal) :-
+    forall(( reachable(Goal, Module:Head),
+             \+ predicate_property(Module:Head, imported_from(_)),
+             reachable(Head, Module:Again),
+             calls(Module:Again, Module:Head0),
+             Head0 =@= Head ),
+           ( functor(Head, Name, Arity), note_recursion(Name/Arity) )).
+
+note_recursion(Predicate) :-
+    (   recurs(Predicate)
+    ->  true
+    ;   assertz(recurs(Predicate)),
+        key(Predicate, Key),
+        nb_setval(Key, [])
+    ).
+
+key(Name/Arity, Key) :-
+    atomic_list_concat([ev3dev_recurs, Name, Arity], ' ', Key).
+
+%   The first two calls, the last one, and their number.
+
+:- multifile ev3dev_last_goal:noted/3.
+:- dynamic ev3dev_last_goal:noted/3.
+
+ev3dev_last_goal:noted(_, _, Goal) :-
+    ev3dev_watched_run:counted(Goal).
+
+counted(Goal0) :-
+    ( Goal0 = _:Goal -> true ; Goal = Goal0 ),
+    callable(Goal),
+    functor(Goal, Name, Arity),
+    recurs(Name/Arity),
+    '$term_size'(Goal, 100, _),
+    key(Name/Arity, Key),
+    nb_getval(Key, Calls0),
+    (   Calls0 = calls(Count0, First, Second, _)
+    ->  Count is Count0+1,
+        nb_setval(Key, calls(Count, First, Second, Goal))
+    ;   Calls0 = [First]
+    ->  nb_setval(Key, calls(2, First, Goal, Goal))
+    ;   nb_setval(Key, [Goal])
+    ).
+
+endless(Text) :-
+    recurs(Name/Arity),
+    key(Name/Arity, Key),
+    nb_getval(Key, calls(Count, First, Second, Last)),
+    Count > 3,
+    (   Arity =:= 0
+    ->  fail
+    ;   arg(Index, First, A1),
+        arg(Index, Second, A2),
+        arg(Index, Last, A3),
+        away(A1, A2, A3, Count, Advice)
+    ),
+    !,
+    shown(First, Shown1),
+    shown(Second, Shown2),
+    format(atom(Text), '~q calls itself without end: ~w, then ~w, and so \c
+           on~w', [Name/Arity, Shown1, Shown2, Advice]).
+
+%   An argument that grows, as nothing computes it; or one that counts.
+
+away(A1, A2, _, _, Advice) :-
+    compound(A2),
+    A2 =.. [Operator|Parts],
+    memberchk(Operator, [+, -, *, /, //]),
+    one_of(Parts, Part),
+    Part == A1,
+    !,
+    format(atom(Advice), '. A number such as ~w is computed by is/2 alone',
+           [A2]).
+away(A1, A2, A3, Count, '') :-
+    integer(A1),
+    integer(A2),
+    integer(A3),
+    Step is A2-A1,
+    Step =\= 0,
+    A3 =:= A1 + (Count-1)*Step.

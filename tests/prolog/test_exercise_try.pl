@@ -1,0 +1,95 @@
+% exercise_try/3 says why a program does not earn all points: where it ended, what it lacks, or by
+% how much it missed a score.
+
+:- use_module('../support/cases').
+:- use_module('../support/trees').
+:- use_module(library(ev3dev/exercise)).
+:- use_module(library(filesex), [delete_directory_and_contents/1]).
+
+%   says(What, Lines, Said): a program with these Lines after the first two; each of Said, where `*`
+%   is any text, is a line of the answer.
+says(a_goal_that_fails_is_named_with_its_values,
+     [ "start :- robot, us_dist_cm(in1, Cm), near(Cm).",
+       "near(Cm) :- Cm < 3." ],
+     "mine.pl:4: start failed; its last goal was *<3, in near/1").
+says(a_number_that_is_not_computed,
+     [ "start :- robot, square(4).",
+       "square(N) :- go_cm(30, 30), turn(30, 90), square(N-1).",
+       "square(0)." ],
+     "It was still under way after 20 s: square/1 calls itself without end: square(4), then square(4-1), *").
+says(a_count_that_goes_past_its_end,
+     [ "start :- robot, side(3).",
+       "side(0).",
+       "side(N) :- turn(30, 90), N1 is N-2, back(N1).",
+       "back(N) :- turn(30, -90), side(N)." ],
+     "It was still under way after 20 s: * calls itself without end: *(1), then *").
+says(time_that_is_not_the_robots,
+     [ "start :- robot, go(20), sleep(0.1), stop." ],
+     "mine.pl:3: sleep/1 does not follow the robot's time: use wait/1").
+says(a_world_of_its_own,
+     [ ":- use_module(library(ev3dev/sim)).",
+       "start :- with_sim(room, go(20))." ],
+     "mine.pl:4: take with_sim/2 out: the exercise has its own world").
+says(a_rule_that_never_has_its_turn,
+     [ "wander :: true ~> turn(20).",
+       "avoid :: us_dist_cm(in1, Cm), Cm < 30 ~> go(-20).",
+       "start :- robot, behave([wander, avoid])." ],
+     "Rule avoid never had its turn: wander comes before it in behave, and always applies").
+says(a_score_that_is_missed_by_far,
+     [ "start :- robot, turn(20, 90)." ],
+     "visits: it was in 1 square of 30 cm; at least 4 would count").
+says(a_recursion_without_end,
+     [ "e(a, b). e(b, a).",
+       "plan(G, G, []).",
+       "plan(S, G, [N|P]) :- e(S, N), plan(N, G, P).",
+       "start :- robot, plan(a, c, P), print(P)." ],
+     "mine.pl:5: plan/3 calls itself without end: the stack of * MB is full*").
+says(a_misspelt_predicate_in_a_rule,
+     [ "start :- robot, behave([avoid]).",
+       "avoid :: us_dist_cm(in1, Cm), Cm > 3 ~> tun(20)." ],
+     "mine.pl:4: there is no tun/1, in the action of rule avoid. Did you mean: turn(Speed)*").
+says(another_name_for_start,
+     [ "main :- robot, side.",
+       "side :- go_cm(20, 20)." ],
+     "there is no start/0: your file has main/0, so call that start").
+says(a_sensor_that_was_not_read,
+     [ "start :- robot, go(40), touching.",
+       "touching :- touch(in4, 1), wait(0.2), touching.",
+       "touching :- wait(0.2), touching." ],
+     "*it ran into *in4 showed *The program had not read in1.").
+
+tries(Lines, Text) :-
+    tmp_file(exercise, Folder),
+    make_directory(Folder),
+    atom_concat(Folder, '/exercise.pl', Exercise),
+    atom_concat(Folder, '/mine.pl', Mine),
+    setup_call_cleanup(
+        ( write_lines(Exercise,
+                      [ ":- use_module(library(ev3dev/exercise)).",
+                        "exercise(e, [seconds(20), seeds(1)]).",
+                        "score(5, visits) :- cells_visited(30, N), N >= 4, collisions(0).",
+                        "score(5, rests) :- ended(exit(0)), cells_visited(30, N), N >= 4." ]),
+          write_lines(Mine,
+                      [ ":- use_module(library(ev3dev)), use_module(library(ev3dev/rules)).",
+                        "robot :- set_robot(5.6, 10.6, outB, outC)."
+                      | Lines ]) ),
+        with_output_to(string(Text),
+                       \+ exercise_try(Exercise, Mine, [enclosed(false)])),
+        delete_directory_and_contents(Folder)).
+
+write_lines(File, Lines) :-
+    setup_call_cleanup(open(File, write, Out),
+                       forall(member(Line, Lines), format(Out, "~s~n", [Line])),
+                       close(Out)).
+
+like(Text, Pattern) :-
+    split_string(Text, "\n", " ", Lines),
+    member(Line, Lines),
+    wildcard_match(Pattern, Line),
+    !.
+
+:- begin_tests(exercise_try).
+test(it_says, [forall(says(What, Lines, Said))]) :-
+    tries(Lines, Text),
+    ( like(Text, Said) -> true ; throw(What-Text) ).
+:- end_tests(exercise_try).
