@@ -167,8 +167,8 @@ prolog:message(error(resource_error(_), Overflow)) -->
       is_dict(Overflow, stack_overflow),
       fills(Overflow, Call),
       functor(Call, Name, Arity),
-      current_prolog_flag(stack_limit, Limit),
-      Megabytes is ceiling(Limit/1048576)
+      get_dict(stack_limit, Overflow, Kilobytes),
+      Megabytes is ceiling(Kilobytes/1024)
     },
     [ '~q calls itself without end: the stack of ~d MB is full'-
       [Name/Arity, Megabytes] ],

@@ -22,9 +22,9 @@ its arguments. What was noted last is the goal that threw, or that a program
 called last before it failed.
 
 Neither listing/1 nor clause/2 sees these break points, and last calls remain
-last calls. A note takes a microsecond on a PC. The debugger knows, too, but it
-keeps the frames of all last calls, for which a program that runs for hours has
-no room.
+last calls. A note takes a microsecond on a PC. The debugger knows, too, but
+it keeps the frames of all last calls, for which a program that runs for hours
+has no room.
 
 Newer Prologs have no break point at a last call that reuses the arguments of
 its clause, its tail here. So the goal before it calls passing/2, which notes
@@ -72,7 +72,8 @@ debugs(Query) :-
     is_debugger(Query).
 
 is_debugger(Name) :-
-    memberchk(Name, [trace, spy, debug, gtrace, gspy, gdebug, set_breakpoint]).
+    memberchk(Name, [ trace, spy, debug, gtrace, gspy, gdebug,
+                      set_breakpoint ]).
 
 in_use :-
     predicate_property(prolog_breakpoints:known_breakpoint(_Clause, _, _, _),
@@ -163,10 +164,10 @@ break(Clause, PC, Set) :-
     !.
 break(_, _, false).
 
-%   What follows PC in Clause is its tail: tail(Moves, At, Called). Moves say of
-%   arguments, counted from 0, which variable of the frame they are, or which
-%   value; the others are at their places. At is where Called would be called
-%   without reuse.
+%   What follows PC in Clause is its tail: tail(Moves, At, Called). Moves say
+%   of arguments, counted from 0, which variable of the frame they are, or
+%   which value; the others are at their places. At is where Called would be
+%   called without reuse.
 
 tail_after(Clause, PC, Tail) :-
     '$fetch_vm'(Clause, PC, Next, Instruction),
@@ -210,23 +211,28 @@ depart(Clause, PC, At, Called) :-
 
 %!  watched(?Clause, ?PC, -Called, -Tail) is nondet.
 %
-%   There is a break point at PC in Clause, where it calls a predicate with the
-%   head Called, or `none` if Prolog has an instruction for that goal, or
+%   There is a break point at PC in Clause, where it calls a predicate with
+%   the head Called, or `none` if Prolog has an instruction for that goal, or
 %   `nothing` if there is no goal.
 
 :- multifile
     prolog:break_hook/6,
-    prolog:break_hook/7,
     noted/3.                            % Clause, PC, Goal
 :- dynamic
     prolog:break_hook/6,
-    prolog:break_hook/7,
     noted/3.
 
 prolog:break_hook(Clause, PC, Frame, _, Goal, Action) :-
     ev3dev_last_goal:stopped(Clause, PC, Frame, Goal, Action).
+:- if((current_prolog_flag(version, Version), Version >= 80300)).
+
+:- multifile prolog:break_hook/7.
+:- dynamic prolog:break_hook/7.
+
 prolog:break_hook(Clause, PC, Frame, _, Goal, _, Action) :-
     ev3dev_last_goal:stopped(Clause, PC, Frame, Goal, Action).
+
+:- endif.
 
 %   If the stack is full, the program comes to know that.
 

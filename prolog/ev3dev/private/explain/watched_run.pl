@@ -2,6 +2,7 @@
           [ watched_run/2               % +Seconds, :Goal
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(error_messages, [in_words//1]).
 :- use_module(last_goal, [outcome/2, watched/4]).
 :- use_module('../basics/small_lists', [append_lists/3, one_of/2]).
 :- use_module('../errors/error_texts', [shown/2]).
@@ -41,7 +42,7 @@ runs(Seconds, Goal) :-
     now_(Now),
     Until is Now+Seconds,
     watch(Goal),
-    set_prolog_flag(stack_limit, 100000000),    % full before its time is over
+    bound_stack,
     (   reachable(Goal, Called),
         out_of_place(Called, Advice)
     ->  place_of(Called, Place),
@@ -50,6 +51,19 @@ runs(Seconds, Goal) :-
                 Outcome),
         said(Outcome, Goal)
     ).
+
+%   So it is full before the time of its processor is over.
+
+:- if((current_prolog_flag(version, Version), Version >= 70714)).
+
+bound_stack :-
+    set_prolog_flag(stack_limit, 100000000).
+
+:- else.
+
+bound_stack.
+
+:- endif.
 
 tick(Until, Listener) :-
     now_(Now),
@@ -103,7 +117,7 @@ line_of(Path, Rule, Line) :-
     !.
 
 said_by(Place, Message) :-
-    phrase(prolog:message(Message), Lines),
+    in_words(Message, Lines, []),
     with_output_to(string(Text),
                    print_message_lines(current_output, '', Lines)),
     split_string(Text, "\n", " \t", Parts0),

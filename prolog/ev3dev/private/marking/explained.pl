@@ -170,6 +170,8 @@ measured(cells_visited(Size, Count), Words) :-
            [Count, Squares, Size]).
 measured(path_length(Cm), Words) :-
     format(string(Words), "it drove ~0f cm", [Cm]).
+measured(path_turns(Degrees), Words) :-
+    format(string(Words), "it turned by ~0f degrees", [Degrees]).
 measured(ended_near(Place, Cm), Words) :-
     format(string(Words), "it ended ~0f cm from ~w", [Cm, Place]).
 measured(duration(Seconds), Words) :-
