@@ -17,9 +17,9 @@ One more run of a program, in whose process
 private/explain/watched_run.pl looks for the reason.
 */
 
-%!  explained(+Exercise, +Files, +Seed, +Enclosed, -Lines) is det.
+%!  explained(+Exercise, +Files, +Seed, +Enclosed, -Lines) is semidet.
 %
-%   Run the program Files again with that Seed. Lines say what is wrong: where
+%   Run the program Files again with that Seed; fails if that run is lost. Lines say what is wrong: where
 %   it ended and why; else which rules never had their turn, and by how much
 %   the scores were missed.
 
@@ -29,8 +29,9 @@ explained(Exercise, Files, Seed, Enclosed, Lines) :-
     Soon is Seconds-0.5,                % before its time is over
     Watched = ( use_module(library(ev3dev/private/explain/watched_run), []),
                 ev3dev_watched_run:watched_run(Soon, Goal) ),
-    fenced_run(Exercise-'', Files, Watched, Seed, Enclosed,
-               ended(_, Output, File)),
+    catch(fenced_run(Exercise-'', Files, Watched, Seed, Enclosed,
+                     ended(_, Output, File)),
+          lost_run(_), fail),
     split_string(Output, "\n", "\r", All),
     findall(Line,
             ( member(Text, All),
