@@ -19,9 +19,9 @@ private/explain/watched_run.pl looks for the reason.
 
 %!  explained(+Exercise, +Files, +Seed, +Enclosed, -Lines) is semidet.
 %
-%   Run the program Files again with that Seed; fails if that run is lost. Lines say what is wrong: where
-%   it ended and why; else which rules never had their turn, and by how much
-%   the scores were missed.
+%   Run the program Files again with that Seed; fails if that run is lost.
+%   Lines say where it ended and why; else which rules never had their turn,
+%   and by how much the scores were missed.
 
 explained(Exercise, Files, Seed, Enclosed, Lines) :-
     exercise_setting(Exercise, goal(Goal), start),
