@@ -27,6 +27,7 @@ mod motors;
 mod navigation;
 #[cfg(not(unix))]
 mod none;
+mod planner;
 mod ports;
 mod roadmap;
 mod screen;
@@ -68,6 +69,7 @@ pub extern "C" fn install() {
     sound::register();
     screen::register();
     grid::register();
+    planner::register();
     roadmap::register();
     navigation::register();
     drive::register();

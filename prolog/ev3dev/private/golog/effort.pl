@@ -2,6 +2,7 @@
           [ effort/4,                   % +Limits, +Options, +Outer, -Effort
             watched_effort/3,           % :Watch, +Record, -Effort
             counted/2,                  % +Depth, +Effort
+            counted_natively/3,         % +Steps, +Inferences, +Effort
             polled/1,                   % +Effort
             in_trial/1,                 % +Effort
             effort_id/2,                % +Effort, -Id
@@ -91,6 +92,22 @@ one_more(Depth, Effort) :-
         ),
         Effort = effort(outer: Outer),
         one_more(0, Outer)
+    ).
+
+%!  counted_natively(+Steps, +Inferences, +Effort) is det.
+%
+%   Native code has taken Steps more. It has computed for as long as Prolog
+%   takes for Inferences.
+
+counted_natively(Steps, Inferences, Effort) :-
+    (   Effort == none
+    ->  true
+    ;   Effort = effort(steps: Steps0, inferences: Start0, outer: Outer),
+        Steps1 is Steps0+Steps,
+        Start is Start0-Inferences,
+        set_field(Effort, effort(steps: Steps1)),
+        set_field(Effort, effort(inferences: Start)),
+        counted_natively(Steps, Inferences, Outer)
     ).
 
 %!  polled(+Effort) is det.

@@ -16,7 +16,7 @@
 :- use_module(values, [fluents_now/3]).
 :- use_module(effort, [counted/2, effort_id/2, how_far/2, polled/1]).
 :- use_module(visited_states, [state_key/4, states_forgotten/1, tried/5]).
-:- use_module(relaxed, [task/5, task_plan/4]).
+:- use_module(planning_task, [task/5, task_plan/4]).
 :- use_module(theory, [has_clauses/2, is_kind/3, is_sensing_action/2]).
 :- use_module(transitions, [in_atom/3, is_final/3, step/5]).
 :- use_module('../errors/errors', [domain_error/2]).
@@ -497,8 +497,9 @@ branches_planned([Test-Case|Cases], P, E, S0, Depth, [Test-Plan|Plans], X) :-
 %   -Situation, +Context) is nondet.
 %
 %   Take the first step of a plan of primitive actions after which the
-%   condition Goal holds, or as the rules of the domain say. relaxed.pl finds
-%   the plan, or, if the domain is not for that, library(ev3dev/planners).
+%   condition Goal holds, or as the rules of the domain say. The native planner
+%   finds the plan, or, if the domain is not for that,
+%   library(ev3dev/planners).
 
 achieve_step(Goal, Options, E, S, E1, S1, X) :-
     must_be_achieve_options(Options),

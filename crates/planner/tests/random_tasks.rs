@@ -1,0 +1,191 @@
+//! Small random tasks against a search through all states that shares no code with the crate.
+use ev3_planner::{Action, Effect, Fault, Formula, Limits, Planner, Progress, Rule, Task};
+use proptest::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+
+const FACTS: usize = 7;
+/// These are derived.
+const DERIVED: std::ops::Range<usize> = 5..FACTS;
+
+type State = BTreeSet<usize>;
+
+fn holds(formula: &Formula, state: &State) -> bool {
+    match formula {
+        Formula::Fact(fact) => state.contains(fact),
+        Formula::Not(part) => !holds(part, state),
+        Formula::And(parts) => parts.iter().all(|part| holds(part, state)),
+        Formula::Or(parts) => parts.iter().any(|part| holds(part, state)),
+    }
+}
+
+/// The state with what the rules derive. Fact 5 does not depend on fact 6.
+fn derive(task: &Task, mut state: State) -> State {
+    for derived in DERIVED {
+        state.remove(&derived);
+    }
+    for derived in DERIVED {
+        for _ in &task.rules {
+            for rule in task.rules.iter().filter(|rule| rule.fact == derived) {
+                if holds(&rule.condition, &state) {
+                    state.insert(derived);
+                }
+            }
+        }
+    }
+    state
+}
+
+fn after(task: &Task, action: &Action, state: &State) -> State {
+    let mut next = state.clone();
+    let effects = action.effects.iter().filter(|effect| holds(&effect.condition, state));
+    let (adds, deletes): (Vec<_>, Vec<_>) = effects.partition(|effect| effect.value);
+    for effect in deletes {
+        next.remove(&effect.fact);
+    }
+    next.extend(adds.iter().map(|effect| effect.fact));
+    derive(task, next)
+}
+
+/// The least cost of a plan.
+fn least_cost(task: &Task) -> Option<u32> {
+    let mut costs = BTreeMap::from([(derive(task, task.initial.iter().copied().collect()), 0)]);
+    loop {
+        let mut better = BTreeMap::new();
+        for (state, cost) in &costs {
+            for action in task.actions.iter().filter(|action| holds(&action.condition, state)) {
+                let next = after(task, action, state);
+                let cost = cost + action.cost;
+                if costs.get(&next).is_none_or(|&known| cost < known) {
+                    better
+                        .entry(next)
+                        .and_modify(|old: &mut u32| *old = cost.min(*old))
+                        .or_insert(cost);
+                }
+            }
+        }
+        if better.is_empty() {
+            break;
+        }
+        costs.extend(better);
+    }
+    costs.iter().filter(|(state, _)| holds(&task.goal, state)).map(|(_, &cost)| cost).min()
+}
+
+/// The cost of a plan, if it is one.
+fn cost(task: &Task, plan: &[usize]) -> Option<u32> {
+    let mut state = derive(task, task.initial.iter().copied().collect());
+    let mut cost = 0;
+    for &action in plan {
+        let action = &task.actions[action];
+        if !holds(&action.condition, &state) {
+            return None;
+        }
+        state = after(task, action, &state);
+        cost += action.cost;
+    }
+    holds(&task.goal, &state).then_some(cost)
+}
+
+fn formula(facts: usize) -> impl Strategy<Value = Formula> {
+    let fact = (0..facts, any::<bool>()).prop_map(|(fact, value)| {
+        let fact = Formula::Fact(fact);
+        if value { fact } else { Formula::Not(Box::new(fact)) }
+    });
+    fact.prop_recursive(2, 6, 3, |part| {
+        let parts = || prop::collection::vec(part.clone(), 0..4);
+        prop_oneof![
+            4 => parts().prop_map(Formula::And),
+            1 => parts().prop_map(Formula::Or),
+            1 => part.clone().prop_map(|part| Formula::Not(Box::new(part))),
+        ]
+    })
+}
+
+fn action() -> impl Strategy<Value = Action> {
+    let effect = (formula(FACTS), any::<bool>(), 0..DERIVED.start, any::<bool>());
+    let effect = effect.prop_map(|(condition, always, fact, value)| {
+        let condition = if always { Formula::TRUE } else { condition };
+        Effect { condition, fact, value }
+    });
+    (formula(FACTS), prop::collection::vec(effect, 1..4), 0..4_u32)
+        .prop_map(|(condition, effects, cost)| Action { condition, effects, cost })
+}
+
+fn task() -> impl Strategy<Value = Task> {
+    let rule = |fact| formula(fact).prop_map(move |condition| Rule { fact, condition });
+    let rules = prop::collection::vec(prop_oneof![rule(5), rule(6)], 0..4);
+    let initial = prop::collection::vec(0..DERIVED.start, 0..3);
+    (initial, prop::collection::vec(action(), 1..7), rules, formula(FACTS)).prop_map(
+        |(initial, actions, rules, goal)| Task { facts: FACTS, initial, actions, rules, goal },
+    )
+}
+
+fn solve(task: &Task, cheapest: bool) -> Progress {
+    let mut planner = Planner::new(task, &Limits { cheapest, ..Limits::default() }).unwrap();
+    loop {
+        // Small pieces: the end of a piece changes nothing.
+        let progress = planner.work(50);
+        if progress != Progress::Working {
+            return progress;
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn any_plan_is_one_and_no_plan_is_true(task in task()) {
+        match solve(&task, false) {
+            Progress::Plan(plan) => prop_assert!(cost(&task, &plan).is_some(), "{plan:?}"),
+            progress => {
+                prop_assert_eq!(progress, Progress::NoPlan);
+                prop_assert_eq!(least_cost(&task), None);
+            }
+        }
+    }
+
+    #[test]
+    fn the_cheapest_plan_costs_least(task in task()) {
+        let found = match solve(&task, true) {
+            Progress::Plan(plan) => {
+                prop_assert!(cost(&task, &plan).is_some(), "{plan:?}");
+                cost(&task, &plan)
+            }
+            progress => {
+                prop_assert_eq!(progress, Progress::NoPlan);
+                None
+            }
+        };
+        prop_assert_eq!(found, least_cost(&task));
+    }
+
+    #[test]
+    fn the_same_task_gets_the_same_plan_in_pieces_of_any_size(task in task()) {
+        for cheapest in [false, true] {
+            let mut planner = Planner::new(&task, &Limits { cheapest, ..Limits::default() }).unwrap();
+            prop_assert_eq!(planner.work(u64::MAX / 2), solve(&task, cheapest));
+        }
+    }
+}
+
+fn lamp(facts: usize, rules: Vec<Rule>) -> Task {
+    let effects = vec![Effect { condition: Formula::TRUE, fact: 0, value: true }];
+    let action = Action { condition: Formula::TRUE, effects, cost: 1 };
+    Task { facts, initial: vec![], actions: vec![action], rules, goal: Formula::Fact(0) }
+}
+
+#[test]
+fn a_task_that_contradicts_itself_is_refused() {
+    let fault = |task: &Task| Planner::new(task, &Limits::default()).err();
+    assert_eq!(fault(&lamp(1, vec![])), None);
+    assert_eq!(fault(&lamp(0, vec![])), Some(Fault::NoSuchFact(0)));
+    let rule = |fact, condition| Rule { fact, condition };
+    assert_eq!(fault(&lamp(1, vec![rule(0, Formula::TRUE)])), Some(Fault::DerivedEffect(0)));
+    let not = |fact| Formula::Not(Box::new(Formula::Fact(fact)));
+    assert_eq!(
+        fault(&lamp(3, vec![rule(1, not(2)), rule(2, Formula::Fact(1))])),
+        Some(Fault::NotStratified(1))
+    );
+    assert_eq!(fault(&lamp(3, vec![rule(1, not(2)), rule(2, Formula::Fact(0))])), None);
+}

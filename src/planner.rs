@@ -1,0 +1,112 @@
+//! `prolog/ev3dev/private/golog/planning_task.pl`: plans for domains of Golog.
+use crate::glue::call::Call;
+use crate::glue::error::wrong_because;
+use crate::glue::terms::Prolog;
+use ev3_os::locked;
+use ev3_planner::{Action, Effect, Formula, Limits, Planner, Progress, Task};
+use std::sync::{Arc, Mutex};
+use swipl::prelude::*;
+
+/// The memory that a search may take: a brick has 64 MB for all.
+const BYTES: usize = if cfg!(target_pointer_width = "64") { 512 << 20 } else { 16 << 20 };
+
+/// A search that has begun.
+#[arc_blob("ev3_planner", defaults)]
+struct PlannerBlob {
+    planner: Mutex<Planner>,
+}
+
+natives! {
+    /// planner_new_(+Facts, +Initial, +Actions, +Goal, +Cheapest, -Planner): facts is their
+    /// number, initial a list of facts, and actions a list of action(Condition, Effects), whose
+    /// effects are effect(Truth, Fact, Condition). Conditions are those of `ground.pl`, with the
+    /// numbers of facts.
+    semidet fn "planner_new_"(context, facts, initial, actions, goal, cheapest, planner) as call("do", 2) {
+        let task = Task {
+            facts: number(&call, facts)?,
+            initial: call.map_list(initial, |fact| number(&call, &fact))?,
+            actions: call.map_list(actions, |action| action_of(&call, &action))?,
+            rules: vec![],
+            goal: formula(&call, goal)?,
+        };
+        let limits = Limits { cheapest: truth(&call, cheapest)?, bytes: BYTES };
+        match Planner::new(&task, &limits) {
+            Ok(made) => planner.unify(Arc::new(PlannerBlob { planner: Mutex::new(made) })),
+            Err(fault) => wrong_because(&call, "planning_task", goal, &fault.to_string()),
+        }
+    }
+
+    /// planner_work_(+Planner, +Steps, -Progress, -States): progress is plan(Actions), with their
+    /// indices from 0, no_plan, working or gave_up(Limit).
+    semidet fn "planner_work_"(context, planner, steps, progress, states) as call("do", 2) {
+        let steps = u64::try_from(call.integer(steps)?).unwrap_or(0);
+        let blob: Arc<PlannerBlob> = planner.get_ex()?;
+        let mut planner = locked(&blob.planner);
+        let now = planner.work(steps);
+        states.unify(planner.states() as u64)?;
+        progress.unify(&progress_term(&call, now)?)
+    }
+}
+
+fn progress_term<'a, C: Prolog>(call: &Call<'a, C>, progress: Progress) -> PrologResult<Term<'a>> {
+    let context = call.context;
+    match progress {
+        Progress::Plan(plan) => {
+            let list = context.new_term_ref();
+            let plan: Vec<_> = plan.into_iter().map(|action| action as u64).collect();
+            list.unify(plan.as_slice())?;
+            term! {context: plan(#&list)}
+        }
+        Progress::NoPlan => term! {context: no_plan},
+        Progress::Working => term! {context: working},
+        Progress::OutOfMemory => {
+            let megabytes = (BYTES >> 20) as u64;
+            term! {context: gave_up(megabytes(#megabytes))}
+        }
+    }
+}
+
+fn number<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<usize> {
+    Ok(usize::try_from(call.integer(term)?).unwrap_or(usize::MAX))
+}
+
+fn truth<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<bool> {
+    Ok(&*call.text(term)? == "true")
+}
+
+fn action_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Action> {
+    let [condition, effects] = call.arguments(term)?;
+    let effect = |term: Term<'a>| {
+        let [value, fact, condition] = call.arguments(&term)?;
+        Ok(Effect {
+            condition: formula(call, &condition)?,
+            fact: number(call, &fact)?,
+            value: truth(call, &value)?,
+        })
+    };
+    Ok(Action {
+        condition: formula(call, &condition)?,
+        effects: call.map_list(&effects, effect)?,
+        cost: 1,
+    })
+}
+
+fn formula<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Formula> {
+    if term.is_integer() {
+        return Ok(Formula::Fact(number(call, term)?));
+    }
+    if term.is_atom() {
+        return Ok(if truth(call, term)? { Formula::TRUE } else { Formula::FALSE });
+    }
+    let terms = call.list(term)?;
+    let [word, parts @ ..] = &*terms else { return Ok(Formula::TRUE) };
+    let mut parts =
+        parts.iter().map(|part| formula(call, part)).collect::<PrologResult<Vec<_>>>()?;
+    Ok(match (&*call.text(word)?, parts.pop()) {
+        ("not", Some(part)) => Formula::Not(Box::new(part)),
+        (word, last) => {
+            parts.extend(last);
+            if word == "and" { Formula::And(parts) } else { Formula::Or(parts) }
+        }
+    })
+}
