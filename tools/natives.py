@@ -33,7 +33,7 @@ def lines():
                 known.add((name, arity))
                 line = f"{name}/{arity},"
                 line = f"            {line:<27} % {modes}" if modes else f"            {line}"
-                yield head + (line if len(line) <= 78 else line[:line.rindex(",", 0, 76)] + ", ..")
+                yield head + (line if len(line) <= 78 else line[:line.rindex(",", 0, 75)] + ", ..")
                 head = ""
 
 

@@ -76,8 +76,8 @@ impl Planner {
         Ok(Planner { task, relaxed, successors, search, bytes: limits.bytes })
     }
 
-    /// Goes on for about so many steps of computation, of which a computer does some hundred
-    /// million in a second.
+    /// Goes on for about this number of steps of computation. A computer does some hundred million
+    /// in a second.
     pub fn work(&mut self, steps: u64) -> Progress {
         if self.task.goal.is_none() {
             return Progress::NoPlan;

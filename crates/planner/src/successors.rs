@@ -1,4 +1,4 @@
-//! Which operators are possible in a state: a decision tree over facts.
+//! The operators that are possible in a state, found by a decision tree over facts.
 //!
 //! Source: Helmert: The Fast Downward Planning System (2006), section 5.3.1. Here a node asks for
 //! all facts that may come next, so the tree is as deep as the longest condition.

@@ -497,8 +497,8 @@ branches_planned([Test-Case|Cases], P, E, S0, Depth, [Test-Plan|Plans], X) :-
 %   -Situation, +Context) is nondet.
 %
 %   Take the first step of a plan of primitive actions after which the
-%   condition Goal holds, or as the rules of the domain say. The native planner
-%   finds the plan, or, if the domain is not for that,
+%   condition Goal holds, or as the rules of the domain say. The native
+%   planner finds the plan, or, if the domain is not for that,
 %   library(ev3dev/planners).
 
 achieve_step(Goal, Options, E, S, E1, S1, X) :-
