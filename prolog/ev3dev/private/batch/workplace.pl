@@ -3,7 +3,7 @@
             end_workplace/1             % +Directory
           ]).
 :- use_module('../files/directory', [new_directory/2, write_file/2]).
-:- use_module(library(filesex), [chmod/2, directory_file_path/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2, nth0/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil),
@@ -29,7 +29,7 @@ rm removes it, which follows no links.
 new_workplace(Base, Directory) :-
     forall(left_behind(Base, Left), removed(Left)),
     new_directory(Base, Directory),
-    chmod(Directory, 0o700),
+    run([chmod, '700', file(Directory)]),   % chmod/2 is not in 7.2.3
     assertz(place(Directory)),
     current_prolog_flag(pid, Pid),
     directory_file_path(Directory, owner, File),
@@ -63,7 +63,8 @@ process_name(Pid, process(Pid, Began, Space)) :-
     nth0(20, Fields, Began).
 
 left_behind(Base, Directory) :-
-    current_prolog_flag(tmp_dir, Folder),
+    Flag = tmp_dir,                         % 7.2.3 has no such flag
+    current_prolog_flag(Flag, Folder),
     atomic_list_concat([swipl_, Base, '_'], Prefix),
     catch(directory_files(Folder, Names), error(_, _), fail),
     member(Name, Names),
@@ -78,15 +79,17 @@ left_behind(Base, Directory) :-
 
 removed(Directory) :-
     Script = 'rm -rf -- "$1" || { chmod -R u+rwX -- "$1"; rm -rf -- "$1"; }',
-    catch(( process_create(path(sh), ['-c', Script, sh, file(Directory)],
-                           [ stdin(null), stdout(null), stderr(null),
-                             process(Pid) ]),
-            process_wait(Pid, _) ),
-          error(_, _), true),
+    catch(run([sh, '-c', Script, sh, file(Directory)]), error(_, _), true),
     (   exists_directory(Directory)
     ->  print_message(warning, ev3dev(not_removed(Directory)))
     ;   true
     ).
+
+run([Program|Arguments]) :-
+    process_create(path(Program), Arguments,
+                   [ stdin(null), stdout(null), stderr(null),
+                     process(Pid) ]),
+    process_wait(Pid, _).
 
 :- multifile prolog:message//1.
 

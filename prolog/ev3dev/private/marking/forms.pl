@@ -291,6 +291,8 @@ end_words(killed(Signal), Words) :-
     format(atom(Words), 'crashed (signal ~w)', [Signal]).
 end_words(limit(cpu), 'too much processor time').
 end_words(limit(sleep), 'slept too long').
+end_words(limit(memory), 'too much memory').
+end_words(limit(processes), 'too many processes').
 end_words(limit(output), 'printed too much').
 end_words(refused(_), 'refused').
 end_words(lost, 'not judged').

@@ -35,7 +35,8 @@
 
 marking_place :-
     prolog_load_context(directory, Folder),
-    set_prolog_flag(tmp_dir, Folder).
+    Flag = tmp_dir,                     % 7.2.3 has no such flag
+    set_prolog_flag(Flag, Folder).
 
 %!  marking_exercise(+File, +Text) is det.
 %
