@@ -15,12 +15,23 @@ same. Prolog would offer `ev3dev_sim:sim_start(room)` or another predicate as
 a correction, or say that the procedure is unknown, and list modules.
 
 Prolog's own offer to correct a name that is misspelt stays.
+
+What a person asks about the last run, why/1, and the page, view/0, are loaded
+at their first call: at once they would take a brick a second more. Prolog
+looks at a whole query before it calls a part of it, so what a query loads by
+use_module/1 is loaded before it looks.
 */
 
 :- multifile
+    user:exception/3,
     user:expand_query/4,
     prolog:message//1.
-:- dynamic user:expand_query/4.
+:- dynamic
+    user:exception/3,
+    user:expand_query/4.
+
+user:exception(undefined_predicate, Called, retry) :-
+    ev3dev_unknown_procedures:loaded(Called).
 
 %   A query of the toplevel is looked at before Prolog corrects it, and before
 %   other clauses that expand it.
@@ -42,12 +53,50 @@ forgotten(Query, Predicate) :-
     ->  help_file(own_help, File),
         user:use_module(File),
         fail
+    ;   loaded(Predicate)
+    ->  fail
+    ;   loads(Query, Library),
+        load(user, Library),
+        predicate_property(user:Goal, visible)
+    ->  fail
     ;   known_mistake(Predicate)
     ->  true
     ;   \+ is_corrected(Goal),
         meant(Predicate, _)
     ),
     !.
+
+%   Its library is one of those that are loaded at the first call.
+
+loaded(Called) :-
+    strip_module(user:Called, Module, Predicate),
+    memberchk(Predicate-Library,
+              [ why/1-journal, why/2-journal, view/0-view, view/1-view ]),
+    module_property(Module, class(user)),
+    load(Module, Library).
+
+%   Names that Module uses for its own stay.
+
+load(Module, Library) :-
+    catch(use_module(library(ev3dev/Library), []), error(_, _), fail),
+    atom_concat(ev3dev_, Library, From),
+    module_property(From, exports(Exports)),
+    forall(( '$member'(Name/Arity, Exports),
+             functor(Head, Name, Arity),
+             \+ current_predicate(_, Module:Head) ),
+           Module:import(From:Name/Arity)).
+
+loads(Query, Library) :-
+    (   Query = (Query1, Query2)
+    ->  ( loads(Query1, Library) ; loads(Query2, Library) )
+    ;   nonvar(Query),
+        Query = use_module(File),
+        nonvar(File),
+        File = library(Path),
+        nonvar(Path),
+        Path = ev3dev/Library,
+        atom(Library)
+    ).
 
 %   True if Prolog offers another predicate that the user sees.
 
