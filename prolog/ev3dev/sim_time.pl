@@ -11,6 +11,7 @@
 :- use_module(private/checks/checks,
               [evaluated/2, must_be/2, must_be_goal/1]).
 :- use_module(private/errors/errors, [domain_error/2]).
+:- use_module(private/errors/frames, [goal_of_program/1]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments, [number_value/3]).
 :- use_module(private/simulation/time_limits,
@@ -19,12 +20,14 @@
 :- use_module(private/run/waits, [waited/1]).
 :- use_module(sim_hand, [added_facts/1, set_added_facts/1]).
 :- use_module(private/native/native,
-              [ sim_restore_/1, sim_snapshot_/1, sim_snapshots_/1,
-                sim_step_/1, sim_time_/1, sim_wait_/2 ]).
+              [ commands_/1, motors_stop_/2, running_/1, sim_restore_/1,
+                sim_snapshot_/1, sim_snapshots_/1, sim_step_/1, sim_time_/1,
+                sim_wait_/2, slices_/1 ]).
 
 :- meta_predicate
     sim_at(+, 0),
-    for_seconds(+, 0).
+    for_seconds(+, 0),
+    to_the_end(0).
 
 /** <module> Simulated time
 
@@ -139,7 +142,9 @@ sim_at(Seconds0, Goal) :-
 %   also if Goal starts a simulation of its own, or goes back in time: so a
 %   test runs a program that does not end by itself. Succeeds when the
 %   time is over, or earlier if Goal succeeds; fails if Goal fails before. A
-%   move that Goal is making is stopped; motors that run without end go on.
+%   move that Goal is making is stopped; motors that run without end go on. If
+%   Goal only starts motors, such as go/1, for_seconds/2 waits until the time
+%   is over, and stops them.
 %
 %   Goal is left by an abort, so it may catch all exceptions. Its clean-ups
 %   have another second of simulated time; what goes on then, as `main :-
@@ -161,4 +166,19 @@ for_seconds(Seconds0, Goal) :-
     number_value(seconds, Seconds0, Seconds),
     must_be_goal(Goal),
     sim_time_(_),
-    within_seconds(Seconds, Goal).
+    within_seconds(Seconds, ev3dev_sim_time:to_the_end(Goal)).
+
+to_the_end(Goal) :-
+    slices_(Slices0),
+    commands_(From),
+    goal_of_program(Goal),
+    !,
+    slices_(Slices),
+    commands_(Before),
+    (   Slices =:= Slices0,
+        Before =\= From,
+        running_([_|_])
+    ->  call_cleanup(( repeat, sim_wait(3600), fail ),
+                     motors_stop_(From, Before))
+    ;   true
+    ).

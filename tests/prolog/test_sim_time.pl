@@ -273,6 +273,17 @@ test(leaves_a_program_that_polls) :-
 test(ends_with_a_goal_that_ends) :-
     with_sim([], ( for_seconds(5, sim_wait(1)), sim_wait(10), sim_time(T) )),
     near(T, 11, 0.05).
+test(waits_after_a_goal_that_has_only_started_motors, true(Ports == [])) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC),
+                   for_seconds(3, go(10)), sim_time(T), sim_pose(X0, _, _),
+                   sim_wait(1), sim_pose(X, _, _), ev3dev_native:running_(Ports) )),
+    near(T, 3, 0.1), near(X, X0, 1).
+test(waits_for_nothing_else, true(T < 0.1)) :-
+    with_sim([], ( motor_run(outA, 20),
+                   for_seconds(3, X = 1), X == 1, sim_time(T) )).
+test(leaves_motors_of_before_alone, true(Ports == [outA])) :-
+    with_sim([], ( motor_run(outA, 20), for_seconds(1, motor_run(outB, 20)),
+                   ev3dev_native:running_(Ports) )).
 test(fails_with_a_goal_that_fails, fail) :-
     with_sim([], for_seconds(5, ( sim_wait(1), fail ))).
 test(passes_an_exception_on, throws(oops)) :-
