@@ -102,7 +102,7 @@ ends([ "start :-",
        "    \\+ \\+ ( true,",
        "             gocm(20) ),",
        "    true."
-     ], "--for 3", ["ERROR: FILE:4: gocm/1: Un", "gocm/1"]).
+     ], "--for 3", ["ERROR: FILE:4: there is no gocm/1", "go_cm(Speed"]).
 ends([ "start :-",
        "    step(3).",
        "step(N) :-",

@@ -7,10 +7,6 @@
 :- use_module(run, [fenced_run/6]).
 :- use_module(library(lists), [append/3, last/2, member/2]).
 
-% The operators of library(ev3dev/rules)
-:- op(1160, xfx, ::).
-:- op(1150, xfx, ~>).
-
 /** <module> Why a program does not earn all points
 
 One more run of a program, in whose process
@@ -69,7 +65,7 @@ idle_rule([_-Text|_], Line) :-
     program_terms(Text, Terms),
     findall(Rule,
             ( member(term(Term, _), Terms),
-              ( Term = (Rule :: _) ; Term = ((Rule :: _) :- _) ),
+              ( Term = ::(Rule, _) ; Term = (::(Rule, _) :- _) ),
               atom(Rule) ),
             Named),
     Named = [_|_],
