@@ -450,3 +450,33 @@ ever :-
     sim_wait(0.3),
     fail.
 :- end_tests(for_seconds).
+
+% What Prolog prints around the menu of Ctrl-C, and in place of what follows it.
+:- begin_tests(interrupt_menu).
+test(simulated_time_stands, [forall(member(End, [interrupt(end), '$aborted', format("", [])]))]) :-
+    with_sim([], ( interrupted(Stood), Stood =:= 0,
+                   print_message(silent, End), goes_on ), [clock(realtime)]).
+test(time_that_the_page_has_stopped_stays_so) :-
+    with_sim([], setup_call_cleanup(ev3dev_native:view_pause_(true),
+                                    ( interrupted(_), print_message(silent, interrupt(end)),
+                                      ev3dev_native:view_held_ ),
+                                    ev3dev_native:view_pause_(false)), [clock(realtime)]).
+test(without_a_simulation) :-
+    ( sim_stop -> true ; true ),
+    print_message(silent, interrupt(begin)),
+    print_message(silent, interrupt(end)).
+
+interrupted(Passed) :-
+    print_message(silent, interrupt(begin)),
+    sim_time(T0),
+    sleep(0.05),
+    sim_time(T),
+    Passed is T - T0.
+
+goes_on :-
+    sim_time(T0),
+    repeat,
+    sim_time(T),
+    T > T0,
+    !.
+:- end_tests(interrupt_menu).

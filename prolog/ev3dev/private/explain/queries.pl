@@ -2,14 +2,17 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module('../basics/small_lists', [one_of/2]).
 :- use_module('../errors/frames', [program/1]).
-:- use_module('../native/native', [running_/1]).
+:- use_module('../native/native',
+              [running_/1, view_held_/0, view_pause_/1]).
+:- use_module('../run/brick', [is_simulated/0]).
 
 /** <module> What is said around a query of the toplevel
 
 Before it begins: if a file has changed that defines what it calls. When it
 has failed: which goal of the program was the last one, if the program has
 used the robot. When it has failed, or ended by an error or an abort: which
-motors are still running. A page, another thread, or a program that ends says
+motors are still running. While the menu of Ctrl-C waits, simulated time
+stands; that of a brick does not, so this says which motors go on. A page, another thread, or a program that ends says
 nothing.
 */
 
@@ -20,9 +23,11 @@ nothing.
 :- dynamic
     user:expand_query/4,
     user:message_hook/3,
+    stands/0,                           % simulated time, in a menu
     query/1,                            % the goal that runs
     said/2.                             % File, when it was changed
 :- volatile
+    stands/0,
     query/1,
     said/2.
 
@@ -34,6 +39,7 @@ nothing.
 
 begins(Query) :-
     thread_self(main),
+    ignore(menu(query)),
     callable(Query),
     retractall(query(_)),
     assertz(query(Query)),
@@ -80,6 +86,30 @@ prolog:message(ev3dev(changed(Path))) -->
     [ '~w has changed since it was loaded. Type `make.` to load it again'-
       [File] ].
 
+% ---------------- IN THE MENU OF CTRL-C
+
+user:message_hook(Message, _, _) :-
+    thread_self(main),
+    ev3dev_queries:menu(Message),
+    fail.
+
+%   Time goes on with whatever is printed next: not every choice says so.
+
+menu(interrupt(begin)) :-
+    !,
+    (   is_simulated
+    ->  \+ view_held_,
+        view_pause_(true),
+        assertz(stands)
+    ;   running_(Ports),
+        Ports \== [],
+        print_message(warning, ev3dev(go_on(Ports)))
+    ).
+menu(_) :-
+    retract(stands),
+    is_simulated,
+    view_pause_(false).
+
 % ---------------- WHEN IT HAS ENDED
 
 user:message_hook(Message, Kind, Lines) :-
@@ -123,12 +153,19 @@ remark(_, ev3dev(still_run(Ports))) :-
     running_(Ports),
     Ports \== [].
 
-prolog:message(ev3dev(still_run([Port]))) -->
-    !,
-    [ '~w is still running. Type `stop.`'-[Port] ].
 prolog:message(ev3dev(still_run(Ports))) -->
-    { append_last(Ports, Listed) },
-    [ '~w are still running. Type `stop.`'-[Listed] ].
+    { listed(Ports, Listed) },
+    [ '~w still running. Type `stop.`'-[Listed] ].
+prolog:message(ev3dev(go_on(Ports))) -->
+    { listed(Ports, Listed) },
+    [ '~w still running while this waits: `a` ends the program'-[Listed] ].
+
+listed([Port], Listed) :-
+    !,
+    atom_concat(Port, ' is', Listed).
+listed(Ports, Listed) :-
+    append_last(Ports, Listed0),
+    atom_concat(Listed0, ' are', Listed).
 
 %   `outA, outB and outC`
 
