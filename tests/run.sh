@@ -128,15 +128,24 @@ watch_idle() {
     done
 }
 
-# ticks SESSION: hundredths of a second that its processes have computed, and that their threads
-# have waited for a processor
+# ticks SESSION: hundredths of a second that its processes and their children in other sessions have
+# computed, and that their threads have waited for a processor
 ticks() {
     local pid ended
     while read -r pid ended; do
         echo "${ended}0000000 0" # of those that have ended, as their parent knows it
         cat "/proc/$pid"/task/*/schedstat 2>/dev/null || true
     done < <({ cat /proc/[0-9]*/stat 2>/dev/null || true; } | sed 's/ (.*) / /' |
-        awk -v session="$1" '$5 == session { print $1, $15 + $16 }') |
+        awk -v session="$1" '
+            { parent[$1] = $3; ended[$1] = $15 + $16; if ($5 == session) ours[$1] }
+            END {
+                do {
+                    more = 0
+                    for (p in parent)
+                        if (!(p in ours) && parent[p] in ours) { ours[p]; more = 1 }
+                } while (more)
+                for (p in ours) print p, ended[p]
+            }') |
         awk '{ all += $1 + $2 } END { printf "%d\n", all / 10000000 }'
 }
 

@@ -39,6 +39,7 @@ PasswordAuthentication no
 KbdInteractiveAuthentication no
 UsePAM no
 StrictModes no
+LoginGraceTime 0
 PermitRootLogin prohibit-password
 SetEnv PATH=$folder/bin:/usr/bin:/bin
 END

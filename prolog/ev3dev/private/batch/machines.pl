@@ -68,7 +68,7 @@ redis_batch(Address, program(File, Test, World, Options, Limits), Seeds,
                 get_time(Now),
                 collected(Redis, Scores, Count, Report, no_worker(Now),
                           [], Done) ),
-              forgotten(Redis, [Key, Scores])) )).
+              forgotten(Address, [Key, Scores])) )).
 
 keep(Redis, Key, Term) :-
     kept(Seconds),
@@ -82,11 +82,13 @@ handed_out([Seed|Seeds], Number, Redis, Batch) :-
     Next is Number+1,
     handed_out(Seeds, Next, Redis, Batch).
 
-%   Workers drop the runs of a batch that is forgotten.
+%   Workers drop the runs of a batch that is forgotten. An interrupt may have
+%   left an answer half read, so this takes a connection of its own.
 
-forgotten(Redis, Keys) :-
-    forall(member(Key, Keys),
-           catch(ask(Redis, del(Key), _), error(_, _), true)).
+forgotten(Address, Keys) :-
+    catch(with_redis(Address, Redis,
+                     forall(member(Key, Keys), ask(Redis, del(Key), _))),
+          error(_, _), true).
 
 %   A blocking command would be deaf to signals.
 
