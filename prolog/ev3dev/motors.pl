@@ -172,7 +172,7 @@ turn_ended(reached, _) :-
 turn_ended(stalled, Moves) :-
     !,
     findall(Port, ( one_of(Moves, Move), arg(1, Move, Port) ), Ports),
-    print_message(warning, ev3dev(stalled(Ports))),
+    warn_once(ev3dev(stalled(Ports))),
     fail.
 turn_ended(Reason, Moves) :-
     explain("~p ended early: ~w", [Moves, Reason]),

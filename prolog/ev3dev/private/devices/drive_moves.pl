@@ -107,12 +107,12 @@ ended(reached, _) :-
 ended(stalled, _) :-
     !,
     robot(_, _, Left, Right),
-    print_message(warning, ev3dev(stalled([Left, Right]))),
+    warn_once(ev3dev(stalled([Left, Right]))),
     fail.
 ended(astray, _) :-
     !,
     robot(_, _, Left, Right),
-    print_message(warning, ev3dev(astray([Left, Right]))),
+    warn_once(ev3dev(astray([Left, Right]))),
     fail.
 ended(Reason, Course) :-
     explain("~p ended early: ~w", [Course, Reason]),

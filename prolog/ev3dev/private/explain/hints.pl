@@ -1,6 +1,7 @@
 :- module(ev3dev_hints,
           [ fail_because/1,             % +Cause
             advise/1,                   % +Cause
+            warn_once/1,                % +Message
             tell_again/0,
             explain/2                   % +Format, +Arguments
           ]).
@@ -103,6 +104,16 @@ advise(Cause) :-
     current_prolog_flag(ev3dev_hints, Hints),
     (   told(Hints, Cause)
     ->  true
+    ;   true
+    ).
+
+%!  warn_once(+Message) is det.
+%
+%   Print a warning that is no hint, as often as one: a loop goes on after it.
+
+warn_once(Message) :-
+    (   is_new(Message)
+    ->  print_message(warning, Message)
     ;   true
     ).
 
