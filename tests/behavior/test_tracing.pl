@@ -14,16 +14,29 @@ test(shows_no_port_of_an_inner_predicate,
                        "us_dist_cm(in1, _)"-"us_dist_cm",
                        "go_cm(10, 10)"-"go_cm",
                        "led(nowhere, red)"-"led",
-                       "arc_cm(10, 10, 90)"-"arc_cm" ])),
+                       "arc_cm(10, 10, 90)"-"arc_cm",
+                       "set_robot(5.6, 10.6, outB, outC)"-"set_robot",
+                       "until(us_dist_cm(in1) < 300, go(10))"-"until us_dist_cm",
+                       "until(near, go(10))"-"near until",
+                       "every(0.5, beep), wait(1)"-"beep every wait",
+                       "with_sim(room, go_cm(10, 10))"-"with_sim" ])),
        true(Status-Seen == exit(0)-Called) ]) :-
     format(string(Program),
            ":- use_module(library(ev3dev)).
             :- use_module(library(ev3dev/drive)).
+            :- use_module(library(ev3dev/events)).
+            :- use_module(library(ev3dev/sim)).
             :- dynamic seen/1.
-            user:prolog_trace_interception(_, Frame, _, continue) :-
+            near.
+            beep.
+            user:prolog_trace_interception(Port, Frame, _, continue) :-
                 prolog_frame_attribute(Frame, predicate_indicator, PI),
-                ( PI = M:N/_ -> true ; PI = N/_, M = system ),
-                ( sub_atom(M, 0, _, _, ev3dev) -> assertz(seen(N)) ; true ).
+                ( PI = _:N/_ -> true ; PI = N/_ ),
+                (   Port == call,
+                    \\+ memberchk(N, [true, notrace, (',')])
+                ->  assertz(seen(N))
+                ;   true
+                ).
             main :- ev3_sysfs('/'),
                 ( catch(( trace, ~s ), _, true) -> true ; true ), notrace, nodebug,
                 setof(N, seen(N), Ns), atomic_list_concat(Ns, ' ', Text),

@@ -58,6 +58,47 @@ outwards(Frame, Called0, Called) :-
     ;   Called = Called0
     ).
 
+%   The tracer shows what a program calls, and not what the pack calls for it:
+%   also what native code or a system predicate calls, where Prolog forgets
+%   that the pack is hidden.
+
+:- multifile user:prolog_trace_interception/4.
+:- dynamic user:prolog_trace_interception/4.
+:- initialization(
+       asserta((user:prolog_trace_interception(_, Frame, _, continue) :-
+                    ev3dev_frames:is_inner(Frame))),
+       now).
+
+is_inner(Frame) :-
+    prolog_frame_attribute(Frame, predicate_indicator, Indicator),
+    passes(Indicator),
+    prolog_frame_attribute(Frame, parent, Parent),
+    is_inside(Parent).
+
+is_inside(Frame) :-
+    prolog_frame_attribute(Frame, predicate_indicator, Indicator),
+    (   Indicator == goal_of_program/1
+    ->  fail
+    ;   in_pack(Indicator, _, _)
+    ->  true
+    ;   passes(Indicator),
+        prolog_frame_attribute(Frame, parent, Parent),
+        is_inside(Parent)
+    ).
+
+%   It is no predicate of a program; a hook of Prolog is none.
+
+passes(Indicator) :-
+    (   in_pack(Indicator, _, _)
+    ->  true
+    ;   is_of_system(Indicator)
+    ->  true
+    ;   Indicator = Module:Name/Arity,
+        functor(Head, Name, Arity),
+        predicate_property(Module:Head, multifile),
+        \+ ( predicate_property(Module:Head, file(File)), program(File) )
+    ).
+
 %!  in_pack(+Indicator, -Module, -Predicate) is semidet.
 %
 %   True if Indicator, that of a frame, is Module:Predicate of the pack.
