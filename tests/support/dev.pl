@@ -47,7 +47,7 @@ on_dev(mount, Goal) :-
                   ev3_sysfs(Classes),
                   ev3_dev(Dev) ),
                 once(Goal),
-                ( sim_unmount,
+                ( unmounted,
                   sim_stop )))).
 
 %!  with_dev(+Files, :Goal)

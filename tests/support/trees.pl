@@ -27,6 +27,7 @@
             later/2,                    % +Seconds, :Goal
             meanwhile/2,                % :Other, :Goal
             eventually/1,               % :Goal
+            unmounted/0,
             obeying/2,                  % +Ports, :Goal
             runs/1,                     % +Port
             stops/1,                    % +Port
@@ -179,8 +180,16 @@ on_mount(World, Options, Goal) :-
               sim_mount(Directory),
               ev3_sysfs(Directory) ),
             once(Goal),
-            ( sim_unmount,
+            ( unmounted,
               sim_stop ))).
+
+%!  unmounted is det.
+%
+%   Unmount the simulated files. A process that has just been killed may hold
+%   one of them for another moment.
+
+unmounted :-
+    eventually(catch(( sim_unmount -> true ; true ), error(_, _), fail)).
 
 default_robot([ in1-'lego-ev3-us',
                 in2-'lego-ev3-color',
