@@ -86,7 +86,7 @@ is_inside(Frame) :-
         is_inside(Parent)
     ).
 
-%   It is no predicate of a program; a hook of Prolog is none.
+%   The predicate is not that of a program, as a hook of Prolog is not.
 
 passes(Indicator) :-
     (   in_pack(Indicator, _, _)

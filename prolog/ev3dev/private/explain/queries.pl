@@ -12,8 +12,8 @@ Before it begins: if a file has changed that defines what it calls. When it
 has failed: which goal of the program was the last one, if the program has
 used the robot. When it has failed, or ended by an error or an abort: which
 motors are still running. While the menu of Ctrl-C waits, simulated time
-stands; that of a brick does not, so this says which motors go on. A page, another thread, or a program that ends says
-nothing.
+stands; that of a brick does not, so this says which motors go on. A page,
+another thread, or a program that ends says nothing.
 */
 
 :- multifile
