@@ -45,7 +45,12 @@ user:exception(undefined_predicate, Called, retry) :-
 forgotten(Query, Predicate) :-
     callable(Query),
     Query \== end_of_file,             % Ctrl-D
-    unknown_goal(Query, Goal),
+    unknown_goal(Query, Goal0),
+    (   compound(Goal0),
+        compound_name_arity(Goal0, Goal, 0)     % foo()
+    ->  true
+    ;   Goal = Goal0
+    ),
     functor(Goal, Name, Arity),
     Predicate = Name/Arity,
     % Some Prologs come without library(help): the user gets the pack's.
@@ -59,6 +64,8 @@ forgotten(Query, Predicate) :-
         load(user, Library),
         predicate_property(user:Goal, visible)
     ->  fail
+    ;   not_loaded(Name, _, _)
+    ->  true
     ;   known_mistake(Predicate)
     ->  true
     ;   \+ is_corrected(Goal),
@@ -152,6 +159,13 @@ unknown_goal(Goal, Goal).
 
 prolog:message(error(existence_error(procedure, Predicate0), Context)) -->
     { is_plain(Context),
+      unqualified(Predicate0, Name/Arity),
+      not_loaded(Name, File, Line)
+    },
+    [ 'there is no ~q: the clause at ~w:~d was not loaded, as it has a \c
+       syntax error'-[Name/Arity, File, Line] ].
+prolog:message(error(existence_error(procedure, Predicate0), Context)) -->
+    { is_plain(Context),
       unqualified(Predicate0, Predicate),
       library_of(Predicate, Library)
     },
@@ -178,6 +192,45 @@ prolog:message(error(syntax_error(operator_expected), Where)) -->
       'which is not loaded: first'-[], nl,
       '  use_module(library(ev3dev/~w)).'-[rules]
     ].
+
+%   Prolog found an error of syntax in File at Line when it was loaded.
+
+:- dynamic broken/2.
+:- volatile broken/2.
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+user:message_hook(Message, _, _) :-
+    nonvar(Message),
+    ev3dev_unknown_procedures:noted(Message),
+    fail.
+
+noted(load_file(start(_, file(_, File)))) :-
+    retractall(broken(File, _)).
+noted(error(syntax_error(_), file(File, Line, _, _))) :-
+    assertz(broken(File, Line)).
+
+%   A clause for Name begins at Line of File, and no clause ends between it and
+%   the error: Prolog left out all that it took for one clause.
+
+not_loaded(Name, File, Line) :-
+    broken(Path, At),
+    catch(read_file_to_string(Path, Text, []), error(_, _), fail),
+    split_string(Text, "\n", "", Lines),
+    nth1(Line, Lines, Begin),
+    string_concat(Name, Rest, Begin),
+    \+ ( sub_string(Rest, 0, 1, _, Next), char_type(Next, csym) ),
+    From is min(Line, At),
+    To is max(Line, At)-1,
+    \+ ( between(From, To, Between),
+         nth1(Between, Lines, Other),
+         ends(Other) ),
+    file_base_name(Path, File),
+    !.
+
+ends(Text) :-
+    split_string(Text, "%", " \t\r", [Code|_]),
+    sub_string(Code, _, 1, 0, ".").
 
 %   The predicates of the same name, else those that may be meant.
 
