@@ -210,8 +210,8 @@ noted(load_file(start(_, file(_, File)))) :-
 noted(error(syntax_error(_), file(File, Line, _, _))) :-
     assertz(broken(File, Line)).
 
-%   A clause for Name begins at Line of File, and no clause ends between it and
-%   the error: Prolog left out all that it took for one clause.
+%   A clause for Name begins at Line of File, and no clause ends between it
+%   and the error: Prolog left out all that it took for one clause.
 
 not_loaded(Name, File, Line) :-
     broken(Path, At),
