@@ -6,11 +6,11 @@
 //!
 //! Sources: Helmert: The Fast Downward Planning System (2006). Richter, Helmert: Preferred
 //! Operators and Deferred Evaluation in Satisficing Planning (2009).
-use crate::compiled::{Compiled, Word};
-use crate::heuristic::{Relaxed, RelaxedPlan};
+use crate::compiled::Word;
+use crate::heuristic::RelaxedPlan;
 use crate::open_list::OpenList;
+use crate::problem::Problem;
 use crate::states::{Step, Tree};
-use crate::successors::Successors;
 
 /// The turns that preferred operators get when the search comes nearer.
 const BOOST: i64 = 1000;
@@ -30,49 +30,44 @@ pub(crate) struct Greedy {
 }
 
 impl Greedy {
-    pub(crate) fn new(task: &Compiled, relaxed: &Relaxed, successors: &Successors) -> Greedy {
+    pub(crate) fn new(problem: &Problem) -> Greedy {
         let mut greedy = Greedy {
-            tree: Tree::new(&task.initial),
-            plans: RelaxedPlan::new(task, relaxed),
+            tree: Tree::new(&problem.task.initial),
+            plans: RelaxedPlan::new(&problem.task, &problem.relaxed),
             open: [OpenList::new(), OpenList::new()],
             turns: [0, 0],
             nearest: u32::MAX,
-            state: task.initial.clone(),
+            state: problem.task.initial.clone(),
             possible: vec![],
             work: 0,
         };
-        greedy.expand(task, relaxed, successors, 0);
+        greedy.expand(problem, 0);
         greedy
     }
 
-    pub(crate) fn step(
-        &mut self,
-        task: &Compiled,
-        relaxed: &Relaxed,
-        successors: &Successors,
-    ) -> Step {
+    pub(crate) fn step(&mut self, problem: &Problem) -> Step {
         let preferred =
             self.open[0].is_empty() || !self.open[1].is_empty() && self.turns[1] <= self.turns[0];
         let list = usize::from(preferred);
         self.turns[list] += 1;
         let Some((from, operator)) = self.open[list].pop() else { return Step::Exhausted };
-        task.apply(operator as usize, self.tree.states.get(from), &mut self.state);
+        problem.task.apply(operator as usize, self.tree.states.get(from), &mut self.state);
         self.work += self.state.len() as u64 + 8;
         let Some(number) = self.tree.grow(&self.state, from, operator) else { return Step::Open };
-        if task.reaches_goal(&self.state) {
+        if problem.task.reaches_goal(&self.state) {
             return Step::Plan(self.tree.plan(number));
         }
-        self.expand(task, relaxed, successors, number);
+        self.expand(problem, number);
         Step::Open
     }
 
-    fn expand(&mut self, task: &Compiled, relaxed: &Relaxed, successors: &Successors, number: u32) {
-        let Some(estimate) = self.plans.estimate(relaxed, &self.state) else { return };
+    fn expand(&mut self, problem: &Problem, number: u32) {
+        let Some(estimate) = self.plans.estimate(&problem.relaxed, &self.state) else { return };
         if estimate < self.nearest {
             self.nearest = estimate;
             self.turns[1] -= BOOST;
         }
-        successors.of(task, &self.state, &mut self.possible);
+        problem.successors.of(&problem.task, &self.state, &mut self.possible);
         self.work += self.possible.len() as u64;
         for &operator in &self.possible {
             self.open[0].push(estimate, (number, operator));

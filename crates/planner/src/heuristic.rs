@@ -28,6 +28,8 @@ pub(crate) struct Implication {
 #[derive(Debug)]
 pub(crate) struct Relaxed {
     pub(crate) implications: Vec<Implication>,
+    /// How many conditions each implication has.
+    pub(crate) counts: Vec<u32>,
     /// The implications that have a proposition among their conditions.
     pub(crate) uses: Vec<Vec<u32>>,
     /// The literals that are propositions, with their numbers.
@@ -40,6 +42,7 @@ impl Relaxed {
     pub(crate) fn new(task: &Compiled) -> Relaxed {
         let mut relaxed = Relaxed {
             implications: vec![],
+            counts: vec![],
             uses: vec![vec![]],
             literals: vec![],
             proposition_of: vec![NONE; 2 * task.facts],
@@ -102,6 +105,7 @@ impl Relaxed {
         for &condition in &conditions {
             self.uses[condition as usize].push(index(self.implications.len()));
         }
+        self.counts.push(index(conditions.len()));
         self.implications.push(Implication { conditions, effects, operator });
     }
 
@@ -180,7 +184,6 @@ pub(crate) struct RelaxedPlan {
     reasons: Vec<u32>,
     sums: Vec<u32>,
     missing: Vec<u32>,
-    missing_at_first: Vec<u32>,
     queue: Queue,
     in_plan: Vec<bool>,
     /// The operators of the last relaxed plan.
@@ -195,13 +198,11 @@ pub(crate) struct RelaxedPlan {
 impl RelaxedPlan {
     pub(crate) fn new(task: &Compiled, relaxed: &Relaxed) -> RelaxedPlan {
         let count = relaxed.propositions_count();
-        let missing = relaxed.implications.iter().map(|implied| index(implied.conditions.len()));
         RelaxedPlan {
             costs: vec![NEVER; count],
             reasons: vec![NONE; count],
             sums: vec![0; relaxed.implications.len()],
             missing: vec![],
-            missing_at_first: missing.collect(),
             queue: Queue::default(),
             in_plan: vec![false; task.operators.len()],
             operators: vec![],
@@ -232,7 +233,7 @@ impl RelaxedPlan {
     fn explore(&mut self, relaxed: &Relaxed, state: &[Word], until: Option<u32>) {
         self.costs.fill(NEVER);
         self.sums.fill(0);
-        self.missing.clone_from(&self.missing_at_first);
+        self.missing.clone_from(&relaxed.counts);
         self.queue.clear();
         self.work += (self.costs.len() + self.sums.len()) as u64 / 16;
         for proposition in relaxed.holding(state) {

@@ -86,9 +86,7 @@ impl LandmarkCut {
     /// Costs of propositions, each the cost of the dearest condition and of the operator.
     fn explore(&mut self, relaxed: &Relaxed, state: &[Word]) {
         self.costs.fill(NEVER);
-        let counts = relaxed.implications.iter().map(|implied| implied.conditions.len());
-        self.missing.clear();
-        self.missing.extend(counts.map(crate::compiled::index));
+        self.missing.clone_from(&relaxed.counts);
         self.work += (self.costs.len() + self.missing.len()) as u64 / 8;
         for proposition in relaxed.holding(state) {
             self.costs[proposition as usize] = 0;

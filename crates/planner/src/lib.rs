@@ -40,6 +40,7 @@ mod landmark_cut;
 mod novelty;
 mod open_list;
 mod planner;
+mod problem;
 mod shortest;
 mod states;
 mod successors;

@@ -6,11 +6,11 @@
 //!
 //! Source: Lipovetzky, Geffner: Best-First Width Search: Exploration and Exploitation in Classical
 //! Planning (2017), BFWS(f5).
-use crate::compiled::{Compiled, Word, facts, has, index, set};
-use crate::heuristic::{NONE, Relaxed, RelaxedPlan};
+use crate::compiled::{Word, facts, has, index, set};
+use crate::heuristic::{NONE, RelaxedPlan};
 use crate::open_list::OpenList;
+use crate::problem::Problem;
 use crate::states::{Step, Tree};
-use crate::successors::Successors;
 use std::collections::BTreeMap;
 
 /// What is known of a state.
@@ -25,12 +25,6 @@ struct Known {
     group: u32,
 }
 
-/// The facts that a relaxed plan makes true.
-#[derive(Debug)]
-struct Way {
-    facts: Vec<usize>,
-}
-
 /// What the states of a group have shown.
 #[derive(Debug)]
 struct Group {
@@ -43,7 +37,8 @@ struct Group {
 pub(crate) struct Novelty {
     pub(crate) tree: Tree,
     known: Vec<Known>,
-    ways: Vec<Way>,
+    /// The facts that each relaxed plan makes true.
+    ways: Vec<Vec<usize>>,
     reached: Vec<Word>,
     groups: Vec<Group>,
     group_of: BTreeMap<(u32, u32), u32>,
@@ -60,62 +55,57 @@ pub(crate) struct Novelty {
 }
 
 impl Novelty {
-    pub(crate) fn new(task: &Compiled, relaxed: &Relaxed, bytes_for_pairs: usize) -> Novelty {
-        let mut facts_of = vec![usize::MAX; relaxed.propositions_count()];
-        for (proposition, fact) in relaxed.true_facts() {
+    pub(crate) fn new(problem: &Problem, bytes_for_pairs: usize) -> Novelty {
+        let mut facts_of = vec![usize::MAX; problem.relaxed.propositions_count()];
+        for (proposition, fact) in problem.relaxed.true_facts() {
             facts_of[proposition as usize] = fact;
         }
         let mut novelty = Novelty {
-            tree: Tree::new(&task.initial),
+            tree: Tree::new(&problem.task.initial),
             known: vec![],
             ways: vec![],
             reached: vec![],
             groups: vec![],
             group_of: BTreeMap::new(),
             bytes_for_pairs,
-            plans: RelaxedPlan::new(task, relaxed),
+            plans: RelaxedPlan::new(&problem.task, &problem.relaxed),
             facts_of,
             open: OpenList::new(),
-            state: task.initial.clone(),
+            state: problem.task.initial.clone(),
             possible: vec![],
             lists: [vec![], vec![]],
             work: 0,
         };
-        novelty.add(task, relaxed, None);
+        novelty.add(problem, None);
         novelty
     }
 
-    pub(crate) fn step(
-        &mut self,
-        task: &Compiled,
-        relaxed: &Relaxed,
-        successors: &Successors,
-    ) -> Step {
+    pub(crate) fn step(&mut self, problem: &Problem) -> Step {
         let Some(from) = self.open.pop() else { return Step::Exhausted };
         let mut possible = std::mem::take(&mut self.possible);
-        successors.of(task, self.tree.states.get(from), &mut possible);
+        problem.successors.of(&problem.task, self.tree.states.get(from), &mut possible);
         self.work += possible.len() as u64;
         for &operator in &possible {
-            task.apply(operator as usize, self.tree.states.get(from), &mut self.state);
+            problem.task.apply(operator as usize, self.tree.states.get(from), &mut self.state);
             self.work += self.state.len() as u64 + 8;
             let Some(number) = self.tree.grow(&self.state, from, operator) else { continue };
-            if task.reaches_goal(&self.state) {
+            if problem.task.reaches_goal(&self.state) {
                 return Step::Plan(self.tree.plan(number));
             }
-            self.add(task, relaxed, Some(from));
+            self.add(problem, Some(from));
         }
         self.possible = possible;
         Step::Open
     }
 
     /// The state is the newest of the tree.
-    fn add(&mut self, task: &Compiled, relaxed: &Relaxed, from: Option<u32>) {
+    fn add(&mut self, problem: &Problem, from: Option<u32>) {
         let number = index(self.known.len());
-        let missing = task.goal.as_ref().map_or(0, |goal| index(goal.missing(&self.state)));
+        let missing = problem.task.goal.as_ref().map_or(0, |goal| index(goal.missing(&self.state)));
         let parent = from.map(|from| self.known[from as usize]);
         let way = match parent {
             Some(parent) if parent.missing <= missing => Some((parent.way, parent.reached)),
-            _ => self.new_way(relaxed),
+            _ => self.new_way(problem),
         };
         let Some((way, before)) = way else {
             // The goal cannot be reached from here.
@@ -123,7 +113,7 @@ impl Novelty {
             return;
         };
         let (reached, count) = self.reach(way, before);
-        let group = self.group(task, missing, count);
+        let group = self.group(problem, missing, count);
         self.known.push(Known { missing, way, reached, group });
         let seen = parent.filter(|parent| parent.group == group).and(from);
         let novelty = self.novelty(group as usize, seen);
@@ -131,20 +121,20 @@ impl Novelty {
     }
 
     /// A relaxed plan from the state, of which nothing is reached yet.
-    fn new_way(&mut self, relaxed: &Relaxed) -> Option<(u32, u32)> {
-        self.plans.estimate(relaxed, &self.state)?;
+    fn new_way(&mut self, problem: &Problem) -> Option<(u32, u32)> {
+        self.plans.estimate(&problem.relaxed, &self.state)?;
         let facts = self.plans.propositions.iter().map(|&at| self.facts_of[at as usize]);
-        let facts = facts.filter(|&fact| fact != usize::MAX && !has(&self.state, fact)).collect();
-        let way = Way { facts };
+        let facts = facts.filter(|&fact| fact != usize::MAX && !has(&self.state, fact));
+        let way: Vec<_> = facts.collect();
         let reached = index(self.reached.len());
-        self.reached.resize(self.reached.len() + way.facts.len().div_ceil(64), 0);
+        self.reached.resize(self.reached.len() + way.len().div_ceil(64), 0);
         self.ways.push(way);
         Some((index(self.ways.len() - 1), reached))
     }
 
     /// Where it stands what was reached before, and what the state reaches; and how much.
     fn reach(&mut self, way: u32, before: u32) -> (u32, u32) {
-        let facts = &self.ways[way as usize].facts;
+        let facts = &self.ways[way as usize];
         let words = facts.len().div_ceil(64);
         let (start, end) = (before as usize, self.reached.len());
         self.reached.extend_from_within(start..start + words);
@@ -161,16 +151,16 @@ impl Novelty {
         (index(end), count)
     }
 
-    fn group(&mut self, task: &Compiled, missing: u32, count: u32) -> u32 {
+    fn group(&mut self, problem: &Problem, missing: u32, count: u32) -> u32 {
         *self.group_of.entry((missing, count)).or_insert_with(|| {
-            let words = (task.facts * task.facts / 2).div_ceil(64);
+            let words = (problem.task.facts * problem.task.facts / 2).div_ceil(64);
             let pairs = if 8 * words <= self.bytes_for_pairs {
                 self.bytes_for_pairs -= 8 * words;
                 vec![0; words]
             } else {
                 vec![]
             };
-            self.groups.push(Group { facts: vec![0; task.words()], pairs });
+            self.groups.push(Group { facts: vec![0; problem.task.words()], pairs });
             index(self.groups.len() - 1)
         })
     }

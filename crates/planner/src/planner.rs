@@ -1,11 +1,9 @@
 //! The searches together.
-use crate::compiled::Compiled;
 use crate::greedy::Greedy;
-use crate::heuristic::{Relaxed, RelaxedPlan};
 use crate::novelty::Novelty;
+use crate::problem::Problem;
 use crate::shortest::Shortest;
 use crate::states::Step;
-use crate::successors::Successors;
 use crate::task::{Fault, Task};
 
 /// What a planner may use, and what it is to find.
@@ -39,9 +37,7 @@ pub enum Progress {
 /// The search for a plan of one task.
 #[derive(Debug)]
 pub struct Planner {
-    task: Compiled,
-    relaxed: Relaxed,
-    successors: Successors,
+    problem: Problem,
     search: Search,
     bytes: usize,
 }
@@ -59,30 +55,23 @@ impl Planner {
     /// # Errors
     /// If the task contradicts itself.
     pub fn new(task: &Task, limits: &Limits) -> Result<Planner, Fault> {
-        let mut task = Compiled::new(task)?;
-        let relaxed = Relaxed::new(&task);
-        let mut reachable =
-            RelaxedPlan::new(&task, &relaxed).reachable(&relaxed, &task.initial).into_iter();
-        task.operators.retain(|_| reachable.next() == Some(true));
-        let relaxed = Relaxed::new(&task);
-        let successors = Successors::new(&task);
+        let problem = Problem::new(task)?;
         let search = if limits.cheapest {
-            Search::Cheapest(Box::new(Shortest::new(&task, &relaxed)))
+            Search::Cheapest(Box::new(Shortest::new(&problem)))
         } else {
-            let greedy = Greedy::new(&task, &relaxed, &successors);
-            let novelty = Novelty::new(&task, &relaxed, limits.bytes / 4);
-            Search::Any(Box::new(greedy), Some(Box::new(novelty)))
+            let novelty = Novelty::new(&problem, limits.bytes / 4);
+            Search::Any(Box::new(Greedy::new(&problem)), Some(Box::new(novelty)))
         };
-        Ok(Planner { task, relaxed, successors, search, bytes: limits.bytes })
+        Ok(Planner { problem, search, bytes: limits.bytes })
     }
 
     /// Goes on for about this number of steps of computation. A computer does some hundred million
     /// in a second.
     pub fn work(&mut self, steps: u64) -> Progress {
-        if self.task.goal.is_none() {
+        if self.problem.task.goal.is_none() {
             return Progress::NoPlan;
         }
-        if self.task.reaches_goal(&self.task.initial) {
+        if self.problem.task.reaches_goal(&self.problem.task.initial) {
             return Progress::Plan(vec![]);
         }
         let end = self.worked() + steps;
@@ -90,7 +79,8 @@ impl Planner {
             match self.step() {
                 Step::Plan(plan) => {
                     let plan = self.without_needless(plan);
-                    let action = |&operator: &u32| self.task.operators[operator as usize].action;
+                    let action =
+                        |&operator: &u32| self.problem.task.operators[operator as usize].action;
                     return Progress::Plan(plan.iter().map(action).collect());
                 }
                 Step::Exhausted => return Progress::NoPlan,
@@ -112,13 +102,12 @@ impl Planner {
     }
 
     fn step(&mut self) -> Step {
-        let (task, relaxed, successors) = (&self.task, &self.relaxed, &self.successors);
         match &mut self.search {
             Search::Any(greedy, Some(novelty)) if novelty.work() < greedy.work() => {
-                novelty.step(task, relaxed, successors)
+                novelty.step(&self.problem)
             }
-            Search::Any(greedy, _) => greedy.step(task, relaxed, successors),
-            Search::Cheapest(shortest) => shortest.step(task, relaxed, successors),
+            Search::Any(greedy, _) => greedy.step(&self.problem),
+            Search::Cheapest(shortest) => shortest.step(&self.problem),
         }
     }
 
@@ -160,17 +149,17 @@ impl Planner {
     /// A plan without the action at an index and those that are not possible then, if it still
     /// reaches the goal.
     fn without(&self, plan: &[u32], at: usize) -> Option<Vec<u32>> {
-        let mut state = self.task.initial.clone();
+        let mut state = self.problem.task.initial.clone();
         let mut next = state.clone();
         let mut rest = Vec::new();
         for (index, &operator) in plan.iter().enumerate() {
-            let possible = self.task.operators[operator as usize].condition.holds(&state);
+            let possible = self.problem.task.operators[operator as usize].condition.holds(&state);
             if index != at && possible {
-                self.task.apply(operator as usize, &state, &mut next);
+                self.problem.task.apply(operator as usize, &state, &mut next);
                 std::mem::swap(&mut state, &mut next);
                 rest.push(operator);
             }
         }
-        self.task.reaches_goal(&state).then_some(rest)
+        self.problem.task.reaches_goal(&state).then_some(rest)
     }
 }

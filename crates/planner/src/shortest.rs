@@ -1,9 +1,9 @@
 //! A\*: the plan whose actions cost least together.
-use crate::compiled::{Compiled, Word};
-use crate::heuristic::{NEVER, Relaxed};
+use crate::compiled::Word;
+use crate::heuristic::NEVER;
 use crate::landmark_cut::LandmarkCut;
+use crate::problem::Problem;
 use crate::states::{Step, Tree};
-use crate::successors::Successors;
 use std::collections::BTreeMap;
 
 #[derive(Debug)]
@@ -21,18 +21,19 @@ pub(crate) struct Shortest {
 }
 
 impl Shortest {
-    pub(crate) fn new(task: &Compiled, relaxed: &Relaxed) -> Shortest {
+    pub(crate) fn new(problem: &Problem) -> Shortest {
         let mut shortest = Shortest {
-            tree: Tree::new(&task.initial),
-            cut: LandmarkCut::new(task, relaxed),
+            tree: Tree::new(&problem.task.initial),
+            cut: LandmarkCut::new(&problem.task, &problem.relaxed),
             costs: vec![],
             open: BTreeMap::new(),
             open_count: 0,
-            state: task.initial.clone(),
+            state: problem.task.initial.clone(),
             possible: vec![],
             work: 0,
         };
-        let estimate = shortest.cut.estimate(relaxed, &task.initial).unwrap_or(NEVER);
+        let estimate =
+            shortest.cut.estimate(&problem.relaxed, &problem.task.initial).unwrap_or(NEVER);
         shortest.costs.push((0, estimate));
         shortest.push(0);
         shortest
@@ -57,30 +58,25 @@ impl Shortest {
         entry
     }
 
-    pub(crate) fn step(
-        &mut self,
-        task: &Compiled,
-        relaxed: &Relaxed,
-        successors: &Successors,
-    ) -> Step {
+    pub(crate) fn step(&mut self, problem: &Problem) -> Step {
         let Some((from, cost)) = self.pop() else { return Step::Exhausted };
         if cost > self.costs[from as usize].0 {
             return Step::Open;
         }
-        if task.reaches_goal(self.tree.states.get(from)) {
+        if problem.task.reaches_goal(self.tree.states.get(from)) {
             return Step::Plan(self.tree.plan(from));
         }
         let mut possible = std::mem::take(&mut self.possible);
-        successors.of(task, self.tree.states.get(from), &mut possible);
+        problem.successors.of(&problem.task, self.tree.states.get(from), &mut possible);
         self.work += possible.len() as u64;
         for &operator in &possible {
-            task.apply(operator as usize, self.tree.states.get(from), &mut self.state);
+            problem.task.apply(operator as usize, self.tree.states.get(from), &mut self.state);
             self.work += self.state.len() as u64 + 8;
-            let cost = cost.saturating_add(task.operators[operator as usize].cost);
+            let cost = cost.saturating_add(problem.task.operators[operator as usize].cost);
             let (number, is_new) = self.tree.states.insert(&self.state);
             if is_new {
                 self.tree.before.push((from, operator));
-                let estimate = self.cut.estimate(relaxed, &self.state).unwrap_or(NEVER);
+                let estimate = self.cut.estimate(&problem.relaxed, &self.state).unwrap_or(NEVER);
                 self.costs.push((cost, estimate));
                 self.push(number);
             } else if cost < self.costs[number as usize].0 {

@@ -4,7 +4,7 @@
             task_plan/4                 % +Task, +Shortest, +Effort, -Plan
           ]).
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, put_assoc/4]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(effort, [counted_natively/3, effort_id/2, polled/1]).
 :- use_module(ground,
               [ ground_action/4, ground_actions/2, ground_condition/3,
