@@ -232,7 +232,8 @@ exercise_file(Exercise, File) :-
 part_of_course(Exercise, Name) :-
     absolute_file_name(ev3dev_pack(course), Course,
                        [file_type(directory), file_errors(fail)]),
-    directory_files(Course, Names),
+    directory_files(Course, Names0),
+    msort(Names0, Names),
     findall(Name0,
             ( member(Name0, Names),
               sub_atom(Name0, 2, 1, _, -),
@@ -242,7 +243,13 @@ part_of_course(Exercise, Name) :-
               ;   sub_atom(Name0, 3, _, 0, Words),
                   once(sub_atom(Words, _, _, _, Exercise))
               ) ),
-            [Name]).
+            [Name|Others]),
+    (   Others == []
+    ->  true
+    ;   atomic_list_concat([Name|Others], ', ', Listed),
+        throw(usage("~w is a part of several exercises: ~w",
+                    [Exercise, Listed]))
+    ).
 
 a_file(File) :-
     (   exists_file(File)

@@ -380,6 +380,39 @@ test(try, true(sub_string(Text, _, _, _, "Together: 10 of 10 points, in 3 runs."
     with_folder(( folder(Folder), atom_concat(Folder, '/exercise', Exercise),
                   program(honest, File),
                   with_output_to(string(Text), quietly(exercise_try(Exercise, File, []))) )).
+test(how_far_it_is_on_a_terminal,
+     Lines == [ "0 of 3 runs.", "1 of 3 runs; ", "2 of 3 runs; ", "3 of 3 runs; ", "" ]) :-
+    with_progress(true, honest, Lines).
+test(no_line_that_renews_itself_in_a_log, Lines == []) :-
+    with_progress(false, honest, Lines).
+test(the_run_that_is_watched_has_its_line, Lines == ["Watching the run with the seed 1 again.", ""]) :-
+    with_progress(true, is_empty, All),
+    append([_, _, _, _, _], Lines, All).
+
+:- dynamic user:progress_text/1.
+
+%   What try prints on a terminal or not, up to the time that is left.
+with_progress(Terminal, Name, Lines) :-
+    stream_property(Error, alias(user_error)),
+    ( stream_property(Error, tty(true)) -> Was = true ; Was = false ),
+    with_folder(( folder(Folder), atom_concat(Folder, '/exercise', Exercise),
+                  program(Name, File),
+                  setup_call_cleanup(
+                      ( set_stream(Error, tty(Terminal)),
+                        asserta((user:message_hook(ev3dev(marking_now(Form-Values)), _, _) :-
+                                     format(string(Text), Form, Values),
+                                     assertz(user:progress_text(Text))), Clause) ),
+                      with_output_to(string(_),
+                                     ignore(quietly(exercise_try(Exercise, File, [jobs(1)])))),
+                      ( erase(Clause), set_stream(Error, tty(Was)) )) )),
+    findall(Line, ( retract(user:progress_text(Text0)), up_to_time(Text0, Line) ), Lines).
+
+up_to_time(Text, Line) :-
+    (   sub_string(Text, Before, _, _, "about")
+    ->  sub_string(Text, 0, Before, _, Line)
+    ;   Line = Text
+    ).
+
 test(try_fails, fail) :-
     with_folder(( folder(Folder), atom_concat(Folder, '/exercise', Exercise),
                   program(is_empty, File),

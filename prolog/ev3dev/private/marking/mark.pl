@@ -17,7 +17,9 @@
               [domain_error/2, in_own_name/1, throw_error/3]).
 :- use_module(check, [check_exercise/1]).
 :- use_module(kept, [keep_run/3, kept_run/3, with_kept_runs/4]).
-:- use_module(progress, [progress_begins/3, progress_ends/1, runs_over/2]).
+:- use_module(progress,
+              [ progress_begins/3, progress_ends/1, progress_line/2,
+                runs_over/2 ]).
 :- use_module(read,
               [ exercise_seeds/3, exercise_setting/3, forbidden/3,
                 read_exercise/2, seed_list/2 ]).
@@ -143,10 +145,6 @@ seeds(Read, Which, Options, Seeds) :-
 tried(Exercise0, File, Options) :-
     exercise_to_mark(Exercise0, Exercise, Read),
     \+ has_own_world(Read, File, Options),
-    (   stream_property(user_error, tty(true))
-    ->  format(user_error, "Trying ~w ...~n", [File])
-    ;   true
-    ),
     printed(Exercise, Read, open, File, Options, Marked),
     (   earned_all(Marked)
     ->  true
@@ -223,7 +221,8 @@ earned_all(Marked) :-
 %   Run the program on the seeds that Which or Options say, and print what it
 %   earns, and why not more.
 
-printed(Exercise, Read, Which, File, Options, Marked) :-
+printed(Exercise, Read, Which, File, Options0, Marked) :-
+    Options = [progress(terminal)|Options0],
     seeds(Read, Which, Options, Seeds),
     own_submission(File, Submission),
     marked_files(Exercise, Read, [Submission], Seeds, none, Options,
@@ -247,7 +246,11 @@ print_why(Read, Options, Marked) :-
         findall(Earned-Seed, member(run(Seed, Earned, _, _), Runs), Pairs),
         keysort(Pairs, [_-Worst|_]),
         enclosed(Options, Enclosed),
-        explained(Read, Files, Worst, Enclosed, [Line|Lines])
+        Terminal = [progress(terminal)],
+        progress_line('Watching the run with the seed ~w again.'-[Worst],
+                      Terminal),
+        call_cleanup(explained(Read, Files, Worst, Enclosed, [Line|Lines]),
+                     progress_line(''-[], Terminal))
     ->  format("With the seed ~w:~n", [Worst]),
         forall(member(Text, [Line|Lines]), format("  ~w~n", [Text])),
         (   sub_atom(Reason, 0, _, _, 'Stopped')
