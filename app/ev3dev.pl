@@ -170,8 +170,9 @@ call_command(try, [Exercise, Program], Options) :-
     (   setting(page, Options, Page)
     ->  true
     ;   file_name_extension(Base, _, Program),
-        file_base_name(Base, Name),
-        atom_concat(Name, '.html', Page)
+        file_base_name(Base, Name0),
+        ( sub_atom(Name0, 0, 60, _, Name) -> true ; Name = Name0 ),
+        atom_concat(Name, '.html', Page)    % of at most 255 bytes
     ),
     use_module(library(ev3dev/exercise), []),
     Try = ev3dev_exercise:exercise_try(File, Program, [page(Page)|Chosen]),

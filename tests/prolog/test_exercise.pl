@@ -286,6 +286,47 @@ test(only_what_has_changed_is_run_again, Runs-Again == [4, 4, 6, 7, 8]-Marks) :-
                   counted(Count, [One, Two], [seeds(1)|Options], Fifth, _) )),
     Runs = [First, Second, Third, Fourth, Fifth].
 
+%   A file that the exercise loads, and one that has the facts of a world, are changed and left.
+test(what_an_exercise_loads_has_changed, Runs == [1, 1, 2, 2, 3]) :-
+    with_folder(( folder(Folder),
+                  atom_concat(Folder, '/runs', Count),
+                  atom_concat(Folder, '/place.pl', Place),
+                  honest([Loads|Honest]),
+                  format(string(Notes), ":- open(~q, append, S), write(S, x), close(S).", [Count]),
+                  file(one, [Loads, Notes|Honest], _),
+                  file(exercise, [ ":- use_module(library(ev3dev/exercise)), use_module(helper).",
+                                   "exercise(hundred, [seconds(8)]).",
+                                   "world(_, World) :- its_world(World).",
+                                   "score(4, 'drives') :- path_length(Cm), Cm > 100." ], _),
+                  format(string(Its), "its_world(~q).", [Place]),
+                  findall(Runs0,
+                          ( member(Text-Width, [""-200, ""-200, "% 2"-200, "% 2"-200, "% 2"-210]),
+                            format(string(Bounds), "bounds(0, 0, ~d, 200).", [Width]),
+                            file(place, [Bounds, "start(30, 30, 90)."], _),
+                            file(helper, [":- module(helper, [its_world/1]).", Its, Text], _),
+                            command([ mark, exercise, 'one.pl', '--seeds', '1', '--resume',
+                                      '--no-fence' ]),
+                            size_file(Count, Runs0) ),
+                          Runs) )).
+
+%   In a process of its own, which is in the folder.
+command(Arguments) :-
+    current_prolog_flag(executable, Prolog),
+    folder(Folder),
+    absolute_file_name('app/ev3dev.pl', App),
+    process_create(Prolog, ['-q', App|Arguments],
+                   [stdin(null), stdout(null), stderr(null), cwd(Folder), process(Pid)]),
+    process_wait(Pid, exit(0)).
+
+test(a_file_of_the_pack_has_changed, [true(( First == Same, Same \== Other ))]) :-
+    with_folder(( folder(Folder), atom_concat(Folder, '/prolog', Own), make_directory(Own),
+                  sources("a.", First), sources("a.", Same), sources("b.", Other) )).
+
+sources(Text, Hash) :-
+    file('prolog/a', [Text], _),
+    folder(Folder),
+    ev3dev_marking_kept:sources(Folder, Hash).
+
 counted(File, Programs, Options, Count, Marks) :-
     mark_files(Programs, Options, Marks),
     size_file(File, Count).
@@ -413,6 +454,14 @@ up_to_time(Text, Line) :-
     ;   Line = Text
     ).
 
+test(the_page_of_a_name_of_255_bytes, true(Pages = [_])) :-
+    with_folder(( folder(Folder), honest(Honest),
+                  length(Codes, 252), maplist(=(0'x), Codes), atom_codes(Name, Codes),
+                  file(Name, Honest, File),
+                  file_base_name(File, Base),
+                  command([try, exercise, Base, '--seeds', '1']),
+                  atom_concat(Folder, '/x*.html', Pattern),
+                  expand_file_name(Pattern, Pages) )).
 test(try_fails, fail) :-
     with_folder(( folder(Folder), atom_concat(Folder, '/exercise', Exercise),
                   program(is_empty, File),

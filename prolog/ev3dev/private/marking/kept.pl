@@ -1,10 +1,13 @@
 :- module(ev3dev_marking_kept,
           [ with_kept_runs/4,           % +Directory, +Resume, -Kept, :Goal
-            kept_run/3,                 % +Kept, +Key, -Result
-            keep_run/3                  % +Kept, +Key, +Result
+            kept_run/3,                 % +Kept, +Run, -Result
+            keep_run/3                  % +Kept, +Run, +Result
           ]).
+:- use_module('../files/directory', [readable_file/3]).
+:- use_module('../load/compiled', [contents/2, pack_folder/1]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
+:- use_module(library(lists), [member/2]).
 
 :- meta_predicate with_kept_runs(+, +, -, 0).
 
@@ -12,7 +15,9 @@
 
 The file `runs.pl` has a term kept(Key, Result) in each line. Key stands for
 all that a result depends on, so the same run is not made again. A line that
-is not whole, as of a marker that was killed, is left out.
+is not whole, as of a marker that was killed, is left out. A run is
+run(Text, Enclosed, Files, Seed, World, Robot): the text of the exercise, the
+program's files, and the world and robot of the exercise.
 */
 
 :- dynamic known/2.                     % Key, Result
@@ -29,7 +34,9 @@ is not whole, as of a marker that was killed, is left out.
 with_kept_runs(none, _, none, Goal) :-
     !,
     once(Goal).
-with_kept_runs(Directory, Resume, kept(Out), Goal) :-
+with_kept_runs(Directory, Resume, kept(Out, Sources), Goal) :-
+    pack_folder(Pack),
+    sources(Pack, Sources),
     make_directory_path(Directory),
     directory_file_path(Directory, 'runs.pl', File),
     retractall(known(_, _)),
@@ -64,15 +71,68 @@ learn(In) :-
 write_run(Out, Key, Result) :-
     format(Out, '~k.~n', [kept(Key, Result)]).
 
-%!  kept_run(+Kept, +Key, -Result) is semidet.
+%!  kept_run(+Kept, +Run, -Result) is semidet.
 
-kept_run(kept(_), Key, Result) :-
+kept_run(kept(_, Sources), Run, Result) :-
+    key(Sources, Run, Key),
     known(Key, Result),
     !.
 
-%!  keep_run(+Kept, +Key, +Result) is det.
+%!  keep_run(+Kept, +Run, +Result) is det.
 
-keep_run(none, _, _).
-keep_run(kept(Out), Key, Result) :-
+keep_run(kept(Out, Sources), Run, Result) :-
+    key(Sources, Run, Key),
     write_run(Out, Key, Result),
     flush_output(Out).
+
+key(Sources, Run, Key) :-
+    Run = run(_, _, _, _, World, Robot),
+    named_file(World, WorldFile),
+    named_file(Robot, RobotFile),
+    variant_sha1(key(Sources, Run, WorldFile, RobotFile), Key).
+
+%   What a file of a world or robot has, if Name names one.
+
+named_file(Name, Contents) :-
+    (   atomic(Name),
+        readable_file(Name, pl, File)
+    ->  contents(File, Contents)
+    ;   Contents = none
+    ).
+
+%   The files of the pack, and those that are loaded here and are not
+%   Prolog's: the exercise, and what it loads.
+
+sources(Pack, Hash) :-
+    findall(Name-Contents,
+            ( member(Folder, [prolog, lib, native]),
+              directory_file_path(Pack, Folder, Path),
+              within(Path, File),
+              atom_concat(Pack, Name, File),
+              contents(File, Contents) ),
+            Packed),
+    current_prolog_flag(home, Home),
+    directory_file_path(Pack, prolog, Own),
+    findall(File-Contents,
+            (   ( source_file(File)
+                ; source_file(By),
+                  source_file_property(By, includes(File, _)) ),
+                \+ ( member(Folder, [Home, Own]),
+                     sub_atom(File, 0, _, _, Folder) ),
+                exists_file(File),
+                contents(File, Contents) ),
+            Loaded0),
+    sort(Loaded0, Loaded),
+    variant_sha1(Packed-Loaded, Hash).
+
+within(Path, File) :-
+    (   exists_directory(Path)
+    ->  directory_files(Path, Names0),
+        msort(Names0, Names),
+        member(Name, Names),
+        \+ sub_atom(Name, 0, _, _, '.'),
+        directory_file_path(Path, Name, Path1),
+        within(Path1, File)
+    ;   exists_file(Path),
+        File = Path
+    ).

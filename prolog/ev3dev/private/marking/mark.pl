@@ -9,7 +9,6 @@
 :- use_module('../batch/batch', [batch_runs/6, processors/1]).
 :- use_module('../batch/workplace', [end_workplace/1, new_workplace/2]).
 :- use_module('../../sim_fenced', [can_enclose/0]).
-:- use_module('../load/compiled', [pack_folder/1]).
 :- use_module('../checks/arguments', [option/2, option/3]).
 :- use_module('../checks/checks', [must_be/2]).
 :- use_module('../files/directory', [directory_path/2]).
@@ -21,16 +20,15 @@
               [ progress_begins/3, progress_ends/1, progress_line/2,
                 runs_over/2 ]).
 :- use_module(read,
-              [ exercise_seeds/3, exercise_setting/3, forbidden/3,
-                read_exercise/2, seed_list/2 ]).
+              [ exercise_seeds/3, exercise_setting/3, exercise_world/3,
+                forbidden/3, read_exercise/2, seed_list/2 ]).
 :- use_module(forms, [form/2]).
 :- use_module(participants, [read_participants/2, with_participants/4]).
 :- use_module(submissions, [can_be/2, own_submission/2, submissions/4]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
               [append/3, member/2, nth1/3, numlist/3, sum_list/2]).
-:- use_module(library(readutil),
-              [read_file_to_string/3, read_file_to_terms/3]).
+:- use_module(library(readutil), [read_file_to_string/3]).
 
 /** <module> Many runs of many programs, and their points
 
@@ -399,8 +397,9 @@ batch_results(Jobs, Batch, Results) :-
     Batch = batch(kept: Kept, options: Options),
     findall(job(Program, Seed, Result),
             ( member(Program-Seed, Jobs),
-              run_key(Batch, Program-Seed, Key),
-              kept_run(Kept, Key, Result) ),
+              Kept \== none,
+              run_of(Batch, Program-Seed, Run),
+              kept_run(Kept, Run, Result) ),
             Known),
     findall(Job,
             ( member(Job, Jobs),
@@ -418,21 +417,11 @@ batch_results(Jobs, Batch, Results) :-
               ) ),
             Results).
 
-%   All that a result depends on.
-
-run_key(batch(_-Text, _, Programs, Enclosed, _, _), Program-Seed, Key) :-
+run_of(batch(_-Text, Read, Programs, Enclosed, _, _), Program-Seed,
+       run(Text, Enclosed, Files, Seed, World, Robot)) :-
     memberchk(program(Program, _, Files, _, _), Programs),
-    pack_version(Version),
-    variant_sha1(run(Version, Text, Enclosed, Files, Seed), Key).
-
-pack_version(Version) :-
-    pack_folder(Pack),
-    directory_file_path(Pack, 'pack.pl', File),
-    (   catch(read_file_to_terms(File, Facts, []), error(_, _), fail),
-        memberchk(version(Version0), Facts)
-    ->  Version = Version0
-    ;   Version = none
-    ).
+    exercise_world(Read, Seed, World),
+    exercise_setting(Read, robot(Robot), default).
 
 made_results([], _, []) :-
     !.
@@ -472,10 +461,10 @@ results_come(Jobs, Batch, Done0, Done) :-
     forall(( member(done(_, N, Score), New),
              result_of(Score, Result),
              nth1(N, Jobs, Job) ),
-           (   Result = result(ended: lost)
+           (   ( Kept == none ; Result = result(ended: lost) )
            ->  true
-           ;   run_key(Batch, Job, Key),
-               keep_run(Kept, Key, Result)
+           ;   run_of(Batch, Job, Run),
+               keep_run(Kept, Run, Result)
            )),
     length(New, Count),
     runs_over(Count, Options).
