@@ -336,6 +336,7 @@ is_imported(ev3dev, _) :-
 is_imported(_, Id) :-
     predicate_(Name, Arity, Id),
     functor(Head, Name, Arity),
+    current_predicate(_, user:Head),    % a property alone would load view/0
     predicate_property(user:Head, imported_from(_)),
     !.
 

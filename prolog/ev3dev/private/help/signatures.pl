@@ -35,8 +35,7 @@ form(Name/Arity, Form) :-
     format(atom(Form), '~w(~w)', [Name, Listed]).
 
 defined_in(Head, Module) :-
-    (   predicate_property(user:Head, imported_from(Module0)),
-        sub_atom(Module0, 0, _, _, ev3dev)
+    (   is_visible(Head, Module0)
     ->  Module = Module0
     ;   current_module(Module),
         sub_atom(Module, 0, _, _, ev3dev),
@@ -104,7 +103,7 @@ arities(Name, Predicates) :-
     findall(Arity,
             ( between(0, 6, Arity),
               functor(Head, Name, Arity),
-              is_visible(Head),
+              is_visible(Head, _),
               is_public(_, Name/Arity) ),
             Arities),
     (   Arities \== []
@@ -116,7 +115,10 @@ arities(Name, Predicates) :-
         Predicates \== []
     ).
 
-is_visible(Head) :-
+%   To ask for the property of a predicate that is not known would load view/0.
+
+is_visible(Head, Module) :-
+    current_predicate(_, user:Head),
     predicate_property(user:Head, imported_from(Module)),
     sub_atom(Module, 0, _, _, ev3dev).
 
@@ -157,7 +159,7 @@ alike(Name, Public) :-
         sub_atom(Public, 0, _, _, Start)
     ),
     functor(Head, Public, Arity),
-    is_visible(Head).
+    is_visible(Head, _).
 
 %   What other languages and people call it: the word, or a part of it, as in
 %   `turn_left`.
