@@ -55,10 +55,11 @@ impl Fence {
         mut interrupted: impl FnMut() -> bool,
     ) -> io::Result<State> {
         let since = Instant::now();
+        let mut was_waited_for = true;
         loop {
             let left = wall.saturating_sub(since.elapsed());
             if left.is_zero() {
-                return Ok(State::Waiting);
+                return Ok(if was_waited_for { State::Waiting } else { State::Silent });
             }
             let Some(desk) = &mut self.desk else {
                 match self.listener.accept() {
@@ -95,6 +96,7 @@ impl Fence {
                     let next = simulation.next_act().unwrap_or(Duration::MAX);
                     let mut machine = simulation.machine();
                     let until = next.min(end).min(machine.now().saturating_add(AHEAD));
+                    was_waited_for = desk.is_waited_for();
                     desk.answer(&mut machine, until);
                 }
             }
@@ -104,7 +106,7 @@ impl Fence {
     /// Whether there is no question now.
     fn is_silent(&mut self) -> bool {
         let Some(desk) = &mut self.desk else { return true };
-        matches!(desk.hear(Duration::ZERO), Ok(Next::Idle | Next::Gone))
+        matches!(desk.hear(Duration::ZERO), Ok(Next::Idle | Next::Gone)) || !desk.is_waited_for()
     }
 }
 
@@ -129,8 +131,8 @@ natives! {
     }
 
     /// sim_fence_serve_(+Until, +Wall, -State): the machine answers for Wall seconds at most, but
-    /// not after Until, a number of seconds or `inf`. State is `waiting`, `silent` if it asks
-    /// nothing at the end of them, `ended`, `over` or refused(Why).
+    /// not after Until, a number of seconds or `inf`. State is `waiting`, `silent` if it waits for
+    /// no answer at the end of them, `ended`, `over` or refused(Why).
     semidet fn "sim_fence_serve_"(context, until, wall, state) as call("sim_fenced", 3) {
         let (until, wall) = (call.seconds(until)?.unwrap_or(Duration::MAX), call.time(wall)?);
         let simulation = simulation(context)?;

@@ -12,10 +12,17 @@
 //! A question whose answer the program knows ([`Kept`]) is written into its next letter, so that the
 //! machine has it at its moment, and nobody waits for it. The last question of a letter wants an
 //! answer. If none comes, as the program computes or has ended, the host reads what is written.
+//!
+//! A program in a loop asks the same again. The host foresees that, has a copy of the machine
+//! answer, and sends each such question and its answer behind the answer. They hold for a program
+//! that asks just these, one after the other, at their moments: then the machine comes to the same
+//! answers. So a process may see what its sensors will show within 100 ms, if it goes on so.
 use super::{Answer, Far, Host, Kept, Kind, Question, nanos};
 use crate::machine::Machine;
 use ev3_os::locked;
 use ev3_os::mailbox::{Mailbox, Side, readable};
+use std::cmp::Reverse;
+use std::collections::VecDeque;
 use std::io::{self, ErrorKind, Read, Write};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
@@ -28,6 +35,14 @@ const HELLO: &[u8; 8] = b"ev3far1\n";
 const MOST: u32 = 1 << 18;
 
 const HEAD: usize = 32;
+
+/// In how many of the last questions the host looks for a loop, and for how many of the last ones.
+const REMEMBERED: usize = 256;
+const COMPARED: usize = 16;
+
+/// How many questions are foreseen: twice as many as were known since the last one, within these.
+const FEWEST: usize = 4;
+const MOST_FORESEEN: usize = 128;
 
 /// It says that a question is in the mailbox.
 const WAKE: [u8; HEAD] = {
@@ -47,10 +62,13 @@ fn part<const N: usize>(bytes: &[u8], from: usize) -> [u8; N] {
     bytes.get(from..from + N).and_then(|part| part.try_into().ok()).unwrap_or([0; N])
 }
 
+/// Questions as they are sent, in their order, and the answers.
+type Foreseen = VecDeque<(Vec<u8>, Answer)>;
+
 /// The program's end.
 #[derive(Debug)]
 pub struct Line {
-    stream: Mutex<(UnixStream, Kept)>,
+    stream: Mutex<(UnixStream, Kept, Foreseen)>,
     mailbox: Option<Mailbox>,
     /// Called once there are no more answers.
     lost: fn(),
@@ -71,23 +89,35 @@ impl Line {
             return Err(io::Error::new(ErrorKind::InvalidData, "that is no host of a fence"));
         }
         let now = Duration::from_nanos(u64::from_le_bytes(part(&hello, 8)));
-        Ok((Line { stream: Mutex::new((stream, Kept::default())), mailbox, lost }, now))
+        let stream = Mutex::new((stream, Kept::default(), Foreseen::new()));
+        Ok((Line { stream, mailbox, lost }, now))
     }
 
     fn exchanged(&self, question: &Question) -> io::Result<Answer> {
         let mut guard = locked(&self.stream);
-        let (stream, kept) = &mut *guard;
-        let known = self.mailbox.as_ref().and_then(|mailbox| {
-            let answer = kept.answer(question)?;
-            let question = Question { is_known: true, ..*question };
-            mailbox.write_draft(&framed(&question).ok()?).then_some(answer)
-        });
-        if let Some(answer) = known {
-            return Ok(answer);
+        let (stream, kept, foreseen) = &mut *guard;
+        if let Some(mailbox) = &self.mailbox {
+            let frame = framed(&Question { is_known: true, ..*question })?;
+            let next = foreseen.pop_front().filter(|next| next.0 == frame);
+            if next.is_none() {
+                foreseen.clear();
+            }
+            let known = kept.answer(question).or_else(|| {
+                let (_, answer) = next?;
+                kept.note(question, &answer);
+                Some(answer)
+            });
+            if let Some(answer) = known.filter(|_| mailbox.write_draft(&frame)) {
+                return Ok(answer);
+            }
         }
         let frame = framed(question)?;
         let answer = match &self.mailbox {
-            Some(mailbox) => by_mail(mailbox, stream, &frame)?,
+            Some(mailbox) => {
+                let (answer, others) = by_mail(mailbox, stream, &frame)?;
+                *foreseen = foreseen_in(&others);
+                answer
+            }
             None => by_socket(stream, &frame)?,
         };
         kept.note(question, &answer);
@@ -135,16 +165,49 @@ fn answer_of(head: &[u8], bytes: Vec<u8>) -> Answer {
     Answer { error, number: u64::from_le_bytes(part(head, 8)), bytes }
 }
 
-fn by_mail(mailbox: &Mailbox, stream: &mut UnixStream, frame: &[u8]) -> io::Result<Answer> {
+/// An answer by mail, and what comes behind it.
+fn by_mail(
+    mailbox: &Mailbox,
+    stream: &mut UnixStream,
+    frame: &[u8],
+) -> io::Result<(Answer, Vec<u8>)> {
     if mailbox.post(Side::Program, frame).ok_or(ErrorKind::InvalidInput)? {
         stream.write_all(&WAKE)?;
     }
     while !mailbox.wait(Side::Program) {
         stream.read_exact(&mut [0; 16])?;
     }
-    let mut letter = mailbox.letter();
-    let bytes = letter.split_off(letter.len().min(16));
-    Ok(answer_of(&letter, bytes))
+    let letter = mailbox.letter();
+    let (answer, others) = split_answer(&letter).ok_or(ErrorKind::InvalidData)?;
+    Ok((answer, others.to_vec()))
+}
+
+/// The answer at the beginning, and the rest.
+fn split_answer(letter: &[u8]) -> Option<(Answer, &[u8])> {
+    let length = u32::from_le_bytes(part(letter, 0)) as usize;
+    let bytes = letter.get(16..16 + length)?.to_vec();
+    Some((answer_of(letter, bytes), letter.get(16 + length.next_multiple_of(4)..)?))
+}
+
+fn foreseen_in(mut letter: &[u8]) -> Foreseen {
+    let mut foreseen = Foreseen::new();
+    while let Ok(Some((_, length))) = parsed(letter) {
+        let (frame, others) = letter.split_at(length);
+        let Some((answer, others)) = split_answer(others) else { break };
+        foreseen.push_back((frame.to_vec(), answer));
+        letter = others;
+    }
+    foreseen
+}
+
+fn framed_answer(Answer { error, number, bytes }: &Answer) -> Vec<u8> {
+    let count = u32::try_from(bytes.len()).unwrap_or(0);
+    let mut frame = Vec::with_capacity(16 + bytes.len());
+    frame.extend(count.to_le_bytes());
+    frame.extend(error.to_le_bytes());
+    frame.extend(number.to_le_bytes());
+    frame.extend(bytes);
+    frame
 }
 
 impl Far for Line {
@@ -169,12 +232,46 @@ pub enum Next {
     Refused(&'static str),
 }
 
+/// The last questions. Instead of its moment each has the time since the one before.
+#[derive(Debug, Default)]
+struct Asked {
+    steps: Vec<Vec<u8>>,
+    last: Duration,
+    /// How many were known since one was not.
+    known: usize,
+}
+
+impl Asked {
+    fn note(&mut self, question: &Question) {
+        let at = question.at.saturating_sub(self.last);
+        self.last = question.at;
+        if self.steps.len() >= 2 * REMEMBERED {
+            self.steps.drain(..REMEMBERED);
+        }
+        self.steps.extend(framed(&Question { at, is_known: true, ..*question }));
+        self.known = if question.is_known { self.known + 1 } else { 0 };
+    }
+
+    /// The loop in which the program is.
+    fn again(&self) -> Option<&[Vec<u8>]> {
+        let latest = || self.steps.iter().rev();
+        let alike = |period: usize| {
+            let pairs = latest().zip(latest().skip(period)).take(COMPARED);
+            pairs.take_while(|(one, other)| one == other).count()
+        };
+        let periods = (1..self.steps.len()).map(|period| (alike(period), Reverse(period)));
+        let (_, Reverse(period)) = periods.max().filter(|(alike, _)| *alike > 1)?;
+        self.steps.get(self.steps.len() - period..)
+    }
+}
+
 /// The machine's end, which reads one question after the other.
 #[derive(Debug)]
 pub struct Desk {
     stream: UnixStream,
     mailbox: Option<Mailbox>,
     host: Host,
+    asked: Asked,
     received: Vec<u8>,
     /// Whether that came by mail.
     by_mail: bool,
@@ -194,9 +291,9 @@ impl Desk {
             None => stream.write_all(&hello)?,
         }
         stream.set_write_timeout(Some(PATIENCE))?;
-        let (host, received) = (Host::default(), Vec::new());
+        let (host, asked, received) = (Host::default(), Asked::default(), Vec::new());
         let [by_mail, is_admitted, is_lost] = [false; 3];
-        Ok(Desk { stream, mailbox, host, received, by_mail, is_admitted, is_lost })
+        Ok(Desk { stream, mailbox, host, asked, received, by_mail, is_admitted, is_lost })
     }
 
     /// The next question, or the one that was not answered yet. Waits so long for it.
@@ -252,6 +349,11 @@ impl Desk {
         }
     }
 
+    /// Whether the program waits for the answer to what was heard last: not if it knows it.
+    pub fn is_waited_for(&self) -> bool {
+        matches!(parsed(&self.received), Ok(Some((question, _))) if !question.is_known)
+    }
+
     /// Takes over what is written of the next letter, if there is something.
     fn has_draft(&mut self) -> bool {
         let Some(mailbox) = self.mailbox.as_ref().filter(|_| self.received.is_empty()) else {
@@ -266,17 +368,21 @@ impl Desk {
     pub fn answer(&mut self, machine: &mut Machine, until: Duration) {
         let Ok(Some((question, length))) = parsed(&self.received) else { return };
         let is_known = question.is_known;
-        let Answer { error, number, bytes } = self.host.answer(machine, &question, until);
-        let count = u32::try_from(bytes.len()).unwrap_or(0);
-        let mut frame = Vec::with_capacity(16 + bytes.len());
-        frame.extend(count.to_le_bytes());
-        frame.extend(error.to_le_bytes());
-        frame.extend(number.to_le_bytes());
-        frame.extend(bytes);
+        let most = (2 * self.asked.known).clamp(FEWEST, MOST_FORESEEN);
+        self.asked.note(&question);
+        let mut frame = framed_answer(&self.host.answer(machine, &question, until));
         self.received.drain(..length);
         self.is_admitted = false;
         if is_known {
             return;
+        }
+        if self.by_mail {
+            for (question, answer) in self.foreseen(machine, until, most) {
+                frame.resize(frame.len().next_multiple_of(4), 0);
+                frame.extend(question);
+                frame.extend(framed_answer(&answer));
+            }
+            frame.resize(frame.len().next_multiple_of(4), 0);
         }
         if let Some(mailbox) = self.mailbox.as_ref().filter(|_| self.by_mail) {
             self.received.clear();
@@ -289,6 +395,29 @@ impl Desk {
             frame.resize(16, 0);
         }
         self.is_lost |= self.stream.write_all(&frame).is_err();
+    }
+
+    /// What a program in a loop asks next, and what the machine will answer if it does.
+    fn foreseen(&mut self, machine: &Machine, until: Duration, most: usize) -> Foreseen {
+        let mut foreseen = Foreseen::new();
+        let Some(again) = self.asked.again().filter(|_| machine.is_alone()) else {
+            return foreseen;
+        };
+        let mut machine = machine.clone();
+        for step in again.iter().cycle().take(most) {
+            let Ok(Some((question, _))) = parsed(step) else { break };
+            let at = machine.now().saturating_add(question.at);
+            let kinds = [Kind::Pass, Kind::Read, Kind::Write, Kind::Buttons];
+            if at >= until || !kinds.contains(&question.kind) {
+                break;
+            }
+            machine.step(question.at);
+            let question = Question { at, ..question };
+            let answer = self.host.answer(&mut machine, &question, until);
+            let Ok(frame) = framed(&question) else { break };
+            foreseen.push_back((frame, answer));
+        }
+        foreseen
     }
 }
 
@@ -394,6 +523,45 @@ mod tests {
             assert_eq!(reads(&moments[..count], drop), moments[..count]);
             assert_eq!(reads(&moments[..count], |line| line), moments[..count]);
         }
+    }
+
+    #[test]
+    fn a_loop_is_foreseen() {
+        let mut asked = Asked::default();
+        assert!(asked.again().is_none());
+        for (number, at) in [(7, 1), (1, 2), (2, 3), (3, 9), (1, 10), (2, 11)] {
+            asked.note(&question(Kind::Read, at, number));
+        }
+        let again = asked.again().unwrap().iter().map(|step| parsed(step).unwrap().unwrap().0);
+        assert_eq!(
+            again.map(|step| (step.number, step.at.as_micros())).collect::<Vec<_>>(),
+            [(3, 6), (1, 1), (2, 1)]
+        );
+        asked.note(&question(Kind::Read, 12, 3));
+        assert!(asked.again().is_none());
+    }
+
+    #[test]
+    fn the_answers_to_a_loop_come_with_few_letters() {
+        let mut desk = desk(&[]);
+        let mut machine = Machine::bare().unwrap();
+        let mut known = 0;
+        let mut ahead = 0;
+        for at in 1..100 {
+            let read = question(Kind::Read, 500 * at, 0);
+            let question = Question { is_known: ahead > 0, ..read };
+            machine.step(question.at.saturating_sub(machine.now()));
+            desk.received = framed(&question).unwrap();
+            desk.by_mail = !question.is_known;
+            desk.answer(&mut machine, Duration::MAX);
+            let mailbox = desk.mailbox.as_ref().unwrap();
+            if question.is_known {
+                (known, ahead) = (known + 1, ahead - 1);
+            } else {
+                ahead = foreseen_in(split_answer(&mailbox.letter()).unwrap().1).len();
+            }
+        }
+        assert!(known > 80, "{known}");
     }
 
     /// A question at a moment in microseconds.

@@ -219,6 +219,11 @@ impl Machine {
         }
     }
 
+    /// True if no other robot is in its world.
+    pub(crate) fn is_alone(&self) -> bool {
+        self.robots.len() < 2
+    }
+
     /// The other robots.
     fn others(&self) -> Others<'_> {
         match self.robots.split_at_checked(self.number) {
