@@ -115,7 +115,7 @@ arities(Name, Predicates) :-
         Predicates \== []
     ).
 
-%   To ask for the property of a predicate that is not known would load view/0.
+%   To ask for a property of what is not known would load view/0.
 
 is_visible(Head, Module) :-
     current_predicate(_, user:Head),
