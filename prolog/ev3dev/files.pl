@@ -9,6 +9,7 @@
 :- use_module(private/run/brick, [brick/1, is_apart/1, named_brick/3]).
 :- use_module(private/errors/errors, [throw_error/3]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
+:- use_module(private/explain/hints, [tell_again/0]).
 :- use_module(private/files/directory,
               [directory_path/2, environment_directory/2]).
 :- use_module(private/native/native,
@@ -90,7 +91,8 @@ ev3_sysfs(Directory) :-
     sysfs_(Directory).
 ev3_sysfs(Directory) :-
     directory_path(Directory, Path),
-    sysfs_use_(Path).
+    sysfs_use_(Path),
+    tell_again.
 
 %   A program of sim_fenced/3 has its robot by a socket, and its own processes
 %   have none.

@@ -27,6 +27,7 @@
               [clock_changes/1, forget_plans/0]).
 :- use_module(private/simulation/schedule, [run_due_goals/0]).
 :- use_module(private/simulation/turn_order, []).
+:- use_module(private/explain/hints, [tell_again/0]).
 :- use_module(private/run/waits, [event_period/2]).
 :- use_module(private/simulation/world_name, [note_world/2]).
 :- use_module(sim_hand, [set_added_facts/1]).
@@ -152,7 +153,8 @@ sim_start(World, Options) :-
         set_added_facts([]),
         begin_chance_of(Options),
         note_world(World, Options)
-    ).
+    ),
+    tell_again.
 
 %   Each robot gets a brick. Nothing is left of them if one cannot start.
 

@@ -15,8 +15,9 @@
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments, [number_value/3]).
 :- use_module(private/simulation/time_limits,
-              [clock_changes/1, within_seconds/2]).
+              [clock_changes/1, within_seconds/3]).
 :- use_module(private/simulation/schedule, [plan/3]).
+:- use_module(private/run/brick, [is_simulated/0]).
 :- use_module(private/run/waits, [waited/1]).
 :- use_module(sim_hand, [added_facts/1, set_added_facts/1]).
 :- use_module(private/native/native,
@@ -27,7 +28,7 @@
 :- meta_predicate
     sim_at(+, 0),
     for_seconds(+, 0),
-    to_the_end(0).
+    to_the_end(0, +).
 
 /** <module> Simulated time
 
@@ -141,10 +142,9 @@ sim_at(Seconds0, Goal) :-
 %   Call Goal once, and leave it when Seconds of simulated time have passed,
 %   also if Goal starts a simulation of its own, or goes back in time: so a
 %   test runs a program that does not end by itself. Succeeds when the
-%   time is over, or earlier if Goal succeeds; fails if Goal fails before. A
-%   move that Goal is making is stopped; motors that run without end go on. If
-%   Goal only starts motors, such as go/1, for_seconds/2 waits until the time
-%   is over, and stops them.
+%   time is over, or earlier if Goal succeeds; fails if Goal fails before.
+%   When the time is over, the motors that Goal started are stopped. If Goal
+%   only starts motors, such as go/1, for_seconds/2 waits until then.
 %
 %   Goal is left by an abort, so it may catch all exceptions. Its clean-ups
 %   have another second of simulated time; what goes on then, as `main :-
@@ -166,11 +166,17 @@ for_seconds(Seconds0, Goal) :-
     number_value(seconds, Seconds0, Seconds),
     must_be_goal(Goal),
     sim_time_(_),
-    within_seconds(Seconds, ev3dev_sim_time:to_the_end(Goal)).
-
-to_the_end(Goal) :-
-    slices_(Slices0),
     commands_(From),
+    within_seconds(Seconds, ev3dev_sim_time:to_the_end(Goal, From), How),
+    (   How == over,
+        is_simulated                    % Goal may have ended that
+    ->  commands_(Before),
+        motors_stop_(From, Before)
+    ;   true
+    ).
+
+to_the_end(Goal, From) :-
+    slices_(Slices0),
     goal_of_program(Goal),
     !,
     slices_(Slices),
@@ -178,7 +184,8 @@ to_the_end(Goal) :-
     (   Slices =:= Slices0,
         Before =\= From,
         running_([_|_])
-    ->  call_cleanup(( repeat, sim_wait(3600), fail ),
-                     motors_stop_(From, Before))
+    ->  repeat,
+        sim_wait(3600),
+        fail
     ;   true
     ).

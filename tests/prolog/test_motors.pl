@@ -277,6 +277,10 @@ test(a_loop_says_once_that_a_motor_is_blocked,
      true(Ws == [ev3dev(stalled([outB]))])) :-
     with_tree(simulator, ( block(outB),
                            warnings(( between(1, 3, _), motor_run(outB, 50, 360) ), Ws) )).
+test(another_tree_has_its_own_warning,
+     [forall(member(Tree, [simulator, plain])), true(Ws = [_, _])]) :-
+    warnings(forall(member(_, [1, 2]),
+                    with_tree(Tree, ( block(outB), ignore(motor_run(outB, 50, 360)) ))), Ws).
 :- end_tests(motor_run_3).
 
 :- begin_tests(motor_run_4).

@@ -281,6 +281,8 @@ test(waits_after_a_goal_that_has_only_started_motors, true(Ports == [])) :-
 test(waits_for_nothing_else, true(T < 0.1)) :-
     with_sim([], ( motor_run(outA, 20),
                    for_seconds(3, X = 1), X == 1, sim_time(T) )).
+test(stops_what_it_leaves, [forall(member(Goal, [wait(5), ever])), true(Ports == [])]) :-
+    with_sim([], ( for_seconds(1, ( motor_run(outB, 20), Goal )), ev3dev_native:running_(Ports) )).
 test(leaves_motors_of_before_alone, true(Ports == [outA])) :-
     with_sim([], ( motor_run(outA, 20), for_seconds(1, motor_run(outB, 20)),
                    ev3dev_native:running_(Ports) )).

@@ -739,11 +739,9 @@ block(Port) :-
 %!  warnings(:Goal, -Warnings)
 %
 %   Call Goal once, succeed whether it does or not, and instead of printing
-%   its warnings return them as a list of message terms. A warning that is
-%   printed once counts as not printed before.
+%   its warnings return them as a list of message terms.
 
 warnings(Goal, Warnings) :-
-    ev3dev_hints:tell_again,
     retractall(warned(_)),
     setup_call_cleanup(
         asserta((user:message_hook(Term, warning, _) :-

@@ -170,8 +170,8 @@ key(Cause, Key) :-
 
 %!  tell_again is det.
 %
-%   A query of the toplevel or of a page begins, to which anything is reported
-%   again.
+%   A query of the toplevel or of a page begins, or a simulation, or another
+%   tree is used: anything is reported again.
 
 tell_again :-
     retractall(told(_)).

@@ -1,5 +1,5 @@
 :- module(ev3dev_time_limits,
-          [ within_seconds/2,           % +Seconds, :Goal
+          [ within_seconds/3,           % +Seconds, :Goal, -How
             clock_changes/1,            % :Goal
             forget_plans/0
           ]).
@@ -12,7 +12,7 @@
 :- use_module('../basics/small_lists', [one_of/2]).
 
 :- meta_predicate
-    within_seconds(+, 0),
+    within_seconds(+, 0, -),
     clock_changes(0).
 
 /** <module> Limits of the time that a goal may take
@@ -55,20 +55,21 @@ grace(1, 10000000, 10).
 
 look_every(0.2).
 
-%!  within_seconds(+Seconds, :Goal) is semidet.
+%!  within_seconds(+Seconds, :Goal, -How) is semidet.
 %
 %   Call Goal once, and leave it when Seconds of simulated time have passed.
+%   How is `over` then, else `ended`.
 %
 %   @error resource_error(inferences) if Goal computes for too long, and no
 %          time passes
 %   @error resource_error(seconds) if it sleeps for too long
 
-within_seconds(Seconds, Goal) :-
+within_seconds(Seconds, Goal, How) :-
     clock(Now),
     End is Now + Seconds,
     setup_call_cleanup(
         begin_limit(End, Id),
-        within_limit(Id, Goal),
+        within_limit(Id, Goal, How),
         end_limit(Id)).
 
 begin_limit(End, Id) :-
@@ -93,16 +94,18 @@ end_limit(Id) :-
     retractall(left(Id, _, _)).
 
 %   The engine of a branch could not yield to others from native code.
-within_limit(Id, Goal) :-
+within_limit(Id, Goal, How) :-
     (   limit(Id, _, thread)
     ->  limit_call_(Id, Goal)
     ;   catch(once(goal_of_program(Goal)), ev3dev_time_is_up(Id), true)
     ),
-    (   left(Id, _, Why),
-        Why \== over
-    ->  too_much(Why, Text),
+    (   \+ left(Id, _, _)
+    ->  How = ended
+    ;   left(Id, _, over)
+    ->  How = over
+    ;   left(Id, _, Why),
+        too_much(Why, Text),
         throw_error(resource_error(Why), for_seconds/2, Text)
-    ;   true
     ).
 
 too_much(inferences, Text) :-
@@ -292,7 +295,7 @@ waited_for_processor(0).
 %!  clock_changes(:Goal) is semidet.
 %
 %   Call Goal once, which starts a simulation, ends it, or goes back in time.
-%   What time is left to within_seconds/2 is left after it, too, in whatever
+%   What time is left to within_seconds/3 is left after it, too, in whatever
 %   simulation that is, and stands still while there is none.
 
 clock_changes(Goal) :-
