@@ -48,6 +48,10 @@ says(a_misspelt_predicate_in_a_rule,
      [ "start :- robot, behave([avoid]).",
        "avoid :: us_dist_cm(in1, Cm), Cm > 3 ~> tun(20)." ],
      "mine.pl:4: there is no tun/1, in the action of rule avoid. Did you mean: turn(Speed)*").
+says(a_space_before_a_parenthesis,
+     [ "start :- robot,",
+       "    go_cm (20, 20)." ],
+     "Line 4, column 9: Operator expected: write go_cm( without a space.").
 says(another_name_for_start,
      [ "main :- robot, side.",
        "side :- go_cm(20, 20)." ],

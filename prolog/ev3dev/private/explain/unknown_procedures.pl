@@ -73,13 +73,13 @@ forgotten(Query, Predicate) :-
     ),
     !.
 
-%   Its library is one of those that are loaded at the first call.
+%   Its library is loaded at the first call of these.
 
 loaded(Called) :-
-    strip_module(user:Called, Module, Predicate),
-    memberchk(Predicate-Library,
-              [ why/1-journal, why/2-journal, view/0-view, view/1-view ]),
+    strip_module(user:Called, Module, Name/Arity),
+    memberchk(Name, [why, view]),
     module_property(Module, class(user)),
+    library_of(Name/Arity, Library),
     load(Module, Library).
 
 %   Names that Module uses for its own stay.
@@ -192,6 +192,37 @@ prolog:message(error(syntax_error(operator_expected), Where)) -->
       'which is not loaded: first'-[], nl,
       '  use_module(library(ev3dev/~w)).'-[rules]
     ].
+
+prolog:message(error(syntax_error(operator_expected), Where)) -->
+    { nonvar(Where),
+      text_of(Where, Text, Place),
+      column(Where, Column),
+      sub_string(Text, 0, Column, _, Before),
+      sub_string(Text, Column, _, 0, After),
+      parenthesis(After, Before, Advice)
+    },
+    [ '~wOperator expected: ~w'-[Place, Advice] ].
+
+%   In the first line of a clause, Prolog counts one more.
+
+column(string(_, Column), Column).
+column(file(_, _, Column0, _), Column) :-
+    between(0, 1, More),
+    Column is Column0-More.
+
+%   go (20), and go(20)(30)
+
+parenthesis(After, Before, Advice) :-
+    split_string(After, "", " \t\n", [Open]),
+    Open \== After,
+    string_concat("(", _, Open),
+    split_string(Before, "(), \t\n", "", Words),
+    append(_, [Name], Words),
+    sub_string(Name, 0, 1, _, First),
+    char_type(First, lower),
+    format(atom(Advice), 'write ~w( without a space', [Name]).
+parenthesis(After, _, 'a name takes one pair of parentheses') :-
+    string_concat(")(", _, After).
 
 %   Prolog found an error of syntax in File at Line when it was loaded.
 

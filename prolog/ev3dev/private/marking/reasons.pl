@@ -70,10 +70,12 @@ load_error(Output, File, Reason) :-
     messages(Output, File, Messages),
     member(message(_, Where, Text), Messages),
     Where \== '',
-    ( sub_atom(Text, _, _, _, 'Syntax error: ') -> true ; fail ),
+    (   atom_concat(Before, Fault, Text),
+        atom_concat(_, 'Syntax error: ', Before)
+    ;   sub_atom(Text, 0, _, _, 'Operator expected: '), % with advice
+        Fault = Text
+    ),
     !,
-    atom_concat(Before, Fault, Text),
-    atom_concat(_, 'Syntax error: ', Before),
     format(atom(Reason), '~w: ~w.', [Where, Fault]).
 
 %   What is wrong, the worst first: what ended the program, errors in its
