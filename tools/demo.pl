@@ -72,6 +72,7 @@ demo(grid_lost, grid, start).
 demo(explore_room, room, start).
 demo(traffic_light, room, start).
 demo(golog_elevator, room, start(smart)).
+demo(golog_classic, room, start).
 demo(golog_delivery, delivery, start).
 demo(golog_rescue, grid, start).
 demo(golog_wumpus, [bounds(-15, -15, 105, 105)], start).

@@ -62,7 +62,7 @@ task('Drive several robots', [bricks, worker]).
 task('Look on', [view]).
 task('Find a path', [grid, planners, roadmap, navigation]).
 task('Find out where the robot is', [localize, map, grid_belief]).
-task('Plan, act and react', [golog, pddl]).
+task('Plan, act and react', [golog, golog_classic, pddl]).
 
 main :-
     current_prolog_flag(argv, Argv),

@@ -23,7 +23,8 @@ node playground/image.mjs "$modules" "$modules/state.prc"
 examples=(obstacle_avoidance square braitenberg line_following slalom traffic_light remote_control
     thermometer grid_navigation grid_lost lost explore_room rules_wander rules_light_seeker
     rules_line_follower rules_sumo rules_traffic_light rules_processes rules_bumper_car
-    golog_elevator golog_delivery golog_rescue golog_wumpus compare_planners)
+    golog_elevator golog_delivery golog_rescue golog_wumpus golog_classic
+    compare_planners)
 "$swipl" -p library=prolog playground/examples.pl "${examples[@]}" >"$modules/examples.json"
 "$swipl" -q -p library=prolog playground/words.pl >"$modules/words.json"
 node playground/make.mjs "$modules" dist/playground

@@ -56,8 +56,8 @@
               ]).
 :- use_module(private/golog/search, [found_path/4]).
 :- use_module(private/golog/theory,
-              [ declare_domain/1, domain_list/3, has_clauses/2, prepare/1,
-                vocabulary/1
+              [ declare_domain/1, domain_list/3, has_clauses/2, is_kind/3,
+                prepare/1, program_in/4, vocabulary/1
               ]).
 :- use_module(private/golog/transitions,
               [is_final/3, program_shown/2, run/5, step/5]).
@@ -107,13 +107,7 @@ order and in several files.
 */
 
 :- meta_predicate
-    golog(:, +),
-    indigolog(:),
     golog_exog(:),
-    do(:, ?),
-    do(:, +, ?),
-    trans(:, +, ?, ?),
-    final(:, +),
     holds(:, +),
     has_val(:, ?, +),
     eval(:, +, ?),
@@ -128,7 +122,16 @@ order and in several files.
     pathfind(:, +, -),
     sendRcxActionNumber(:, -).
 
-:- module_transparent indigolog/0.
+%   In A : B the action A would be taken for a module.
+
+:- module_transparent
+    golog/2,
+    indigolog/1,
+    indigolog/0,
+    do/2,
+    do/3,
+    trans/4,
+    final/2.
 
 %!  golog(:Program, +Options) is semidet.
 %
@@ -188,7 +191,12 @@ order and in several files.
 %   @error domain_error(golog_sensing, Entry) if no possible value of a fluent
 %          is left
 
-golog(M:Program, Options) :-
+golog(Program, Options) :-
+    context_module(M),
+    ev3dev_golog:golog_in(M, Program, Options).
+
+golog_in(M0, Program0, Options) :-
+    program_in(M0, Program0, M, Program),
     settings(Options, M, Settings),
     retractall(input_ended),
     (   option(reason(Reason), Options)
@@ -296,17 +304,21 @@ closure(Option, Name, M, Options) :-
 %   names, or mainControl(N) for a number N there. Fails, and prints why, if
 %   Program does not come to its end.
 
-indigolog(M:Program) :-
-    (   var(Program)
-    ->  main_program(M, Main),
-        golog(M:Main, [])
-    ;   golog(M:Program, [])
-    ).
+indigolog(Program) :-
+    context_module(M),
+    ev3dev_golog:indigolog_in(M, Program).
 
 indigolog :-
     context_module(M),
-    ev3dev_golog:main_program(M, Main),
-    golog(M:Main, []).
+    ev3dev_golog:indigolog_in(M, _).
+
+indigolog_in(M0, Program0) :-
+    program_in(M0, Program0, M, Program),
+    (   var(Program)
+    ->  main_program(M, Program)
+    ;   true
+    ),
+    golog_in(M, Program, []).
 
 main_program(M, Main) :-
     (   \+ ( has_clauses(M, proc(_, _)),
@@ -347,9 +359,15 @@ golog_exog(M:Action) :-
 %   way.
 
 do(Program, History) :-
-    do(Program, [], History).
+    context_module(M),
+    ev3dev_golog:do_in(M, Program, [], History).
 
-do(M:Program, History0, History) :-
+do(Program, History0, History) :-
+    context_module(M),
+    ev3dev_golog:do_in(M, Program, History0, History).
+
+do_in(M0, Program0, History0, History) :-
+    program_in(M0, Program0, M, Program),
     situation_now(M, History0, S0, X),
     (   is_list(History)
     ->  length(History, Count),
@@ -357,24 +375,34 @@ do(M:Program, History0, History) :-
     ;   On = any
     ),
     run(Program, S0, S, On, X),
-    situation_history(S, History).
+    reached(History0, S, X, M, History).
 
 %!  trans(:Program0, +History0, ?Program, ?History) is nondet.
 %
 %   True if Program0 can take a step after History0 such that Program is what
 %   remains of it, after History. It is Trans of the literature.
 
-trans(M:Program0, History0, Program, History) :-
+trans(Program0, History0, Program, History) :-
+    context_module(M),
+    ev3dev_golog:trans_in(M, Program0, History0, Program, History).
+
+trans_in(M0, Program0, History0, Program, History) :-
+    program_in(M0, Program0, M, E),
     situation_now(M, History0, S0, X),
-    step(Program0, S0, Program1, S, X),
+    step(E, S0, Program1, S, X),
     program_shown(Program1, Program),
-    situation_history(S, History).
+    reached(History0, S, X, M, History).
 
 %!  final(:Program, +History) is semidet.
 %
 %   True if Program may end after History. It is Final of the literature.
 
-final(M:Program, History) :-
+final(Program, History) :-
+    context_module(M),
+    ev3dev_golog:final_in(M, Program, History).
+
+final_in(M0, Program0, History) :-
+    program_in(M0, Program0, M, Program),
     situation_now(M, History, S, X),
     is_final(Program, S, X).
 
@@ -415,13 +443,28 @@ eval(M:Condition, History, Truth) :-
     ).
 
 situation_now(M, History, S, X) :-
-    must_be(list(nonvar), History),
     prepare(M),
     context(M, [], X),
-    (   situation_of_run(History, M, S0, X)
-    ->  S = S0
-    ;   situation(History, S, X)
+    (   is_term(History, M)
+    ->  situation([e('$VAR'('S'), History)], S, X)
+    ;   must_be(list(nonvar), History),
+        (   situation_of_run(History, M, S0, X)
+        ->  S = S0
+        ;   situation(History, S, X)
+        )
     ).
+
+reached(History0, S, X, M, History) :-
+    (   is_term(History0, M)
+    ->  fluent_value('$VAR'('S'), History, S, X)
+    ;   situation_history(S, History)
+    ).
+
+%   In a domain of library(ev3dev/golog_classic), also s0, do(Action, Before)
+
+is_term(Situation, M) :-
+    \+ is_list(Situation),
+    is_kind(fluent, '$VAR'('S'), M).
 
 %!  now(-History) is det.
 %

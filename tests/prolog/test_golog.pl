@@ -253,6 +253,8 @@ trans_of(if(n = 1, c, ndet(a, b)), no, [[]-[a], []-[b]]).
 trans_of(while(n < 2, ndet(up, a)), no,                         % [C]
          [ [[], while(n < 2, ndet(up, a))]-[up],
            [[], while(n < 2, ndet(up, a))]-[a] ]).
+trans_of(a : ndet(b, c), no, [[[], ndet(b, c)]-[a]]).            % [G]
+trans_of(#(a, star(b)), yes, [[]-[a], [[], star(b)]-[b]]).      % [G]
 trans_of(star(ndet(a, b)), yes,                                 % [C]
          [[[], star(ndet(a, b))]-[a], [[], star(ndet(a, b))]-[b]]).
 trans_of(star(ndet(a, b), 2), yes,                              % [M]

@@ -13,6 +13,10 @@
 whole(P, [P]).
 whole(P, [[], P]).
 whole(P, [P, I]) :- idle(I).
+whole(P, P : I) :- idle(I).
+whole(P, [] : P).
+whole(P, #(P, never)).
+whole(P, #(never, P)).
 whole(P, ndet(P, never)).
 whole(P, ndet(never, P)).
 whole(P, rndet(P, never)).

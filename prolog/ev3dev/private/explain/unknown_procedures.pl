@@ -185,12 +185,15 @@ prolog:message(error(existence_error(procedure, Predicate0), Context)) -->
 prolog:message(error(syntax_error(operator_expected), Where)) -->
     { nonvar(Where),
       text_of(Where, Text, Place),
-      \+ current_op(_, xfx, user:(~>)),
-      sub_string(Text, _, _, _, "~>")
+      operator_of(Library, Operator, Type, Clue),
+      \+ current_op(_, Type, user:Operator),
+      sub_string(Text, _, _, _, Operator),
+      sub_string(Text, _, _, _, Clue)
     },
-    [ '~wOperator expected: ~~> is one of library(ev3dev/rules), '-[Place],
+    [ '~wOperator expected: ~w is one of library(ev3dev/~w), '-
+      [Place, Operator, Library],
       'which is not loaded: first'-[], nl,
-      '  use_module(library(ev3dev/~w)).'-[rules]
+      '  use_module(library(ev3dev/~w)).'-[Library]
     ].
 
 prolog:message(error(syntax_error(operator_expected), Where)) -->
@@ -202,6 +205,9 @@ prolog:message(error(syntax_error(operator_expected), Where)) -->
       parenthesis(After, Before, Advice)
     },
     [ '~wOperator expected: ~w'-[Place, Advice] ].
+
+operator_of(rules, ~>, xfx, ~>).
+operator_of(golog_classic, #, xfy, 'proc(').
 
 %   In the first line of a clause, Prolog counts one more.
 

@@ -13,7 +13,10 @@
                 dual/2, entered/4, in_mode/3
               ]).
 :- use_module(effort, [asks_history/1, polled/1]).
-:- use_module(programs, [closed/1, condition_construct/1, fresh/4]).
+:- use_module(programs,
+              [ closed/1, condition_construct/1, fresh/4, in_books/2,
+                negated/2
+              ]).
 :- use_module(situation, [was_done/2]).
 :- use_module(theory, [domain_list/3, is_fluent/2, is_kind/3, proc_body/3]).
 :- use_module(values,
@@ -56,6 +59,13 @@ holds(P, S, Context) :-
 holds_(P, S, Context) :-
     (   condition_construct(P)
     ->  holds_construct(P, S, Context)
+    ;   in_books(P, Q),
+        \+ ( context_module(Context, M),
+             (   is_kind(fluent, P, M)
+             ;   is_kind(proc, P, M)
+             ;   current_predicate(_, M:P)
+             ) )
+    ->  holds_(Q, S, Context)
     ;   context_mode(Context, Mode),
         (   ( Mode == plain ; Mode == possible )
         ->  holds_atom(P, S, Context)
@@ -146,10 +156,12 @@ holds_construct(some(Vs, P0), S, X) :-
     holds(P, S, X).
 holds_construct(some(V, D, P), S, X) :-
     holds_construct(some((V, D), P), S, X).
-holds_construct(all(Vs, P0), S, X) :-
+holds_construct(all(Vs, P0), S, X0) :-
     fresh(Vs, P0, P, Choices),
-    \+ ( chosen(Choices, S, X),
-         \+ holds(P, S, X) ).
+    negated(P, N),
+    dual(X0, X),
+    \+ ( chosen(Choices, S, X0),
+         holds(N, S, X) ).
 holds_construct(all(V, D, P), S, X) :-
     holds_construct(all((V, D), P), S, X).
 holds_construct(done(A0), S, X) :-

@@ -21,34 +21,28 @@ hint(Term, Module, Text) :-
         written(Name/Arity, Here)
     ->  format(atom(Text), '. Write ~w', [Here])
     ;   other_name(Theirs, Head, Ours),
-        current_predicate(Module:Theirs),
+        has_clauses(Module, Theirs),
         \+ has_clauses(Module, Head)
-    ->  format(atom(Text), '. The module ~q has ~q; here it is ~q',
-               [Module, Theirs, Ours])
+    ->  functor(Theirs, TheirName, TheirArity),
+        format(atom(Text), '. The module ~q has ~q; here it is ~w',
+               [Module, TheirName/TheirArity, Ours])
     ;   \+ has_clauses(Module, prim_action(_))
-    ->  format(atom(Text), '. The module ~q has no prim_action/1. (A \c
-                            sequence is written [P, Q], not P:Q)', [Module])
+    ->  format(atom(Text), '. The module ~q has no prim_action/1', [Module])
     ;   Text = ''
     ).
 
-written((:)/2, '[P, Q] for P:Q').
 written((;)/2, '[P, Q] for P;Q in a program').
 written((',')/2, '[P, Q] for P, Q in a program').
-written((#)/2, 'ndet(P, Q) for P#Q').
 written(('|')/2, 'ndet(P, Q) for P|Q').
 written(or/2, 'ndet(P, Q) in a program').
-written((&)/2, 'and(P, Q) for P & Q').
-written(v/2, 'or(P, Q) for P v Q').
-written((-)/1, 'neg(P) for -P').
 written(~ /1, 'neg(P) for ~P').
-written(=> /2, 'impl(P, Q) for P => Q').
-written(<=> /2, 'equiv(P, Q) for P <=> Q').
 written(exists/2, 'some(x, P) for exists').
 written(forall/2, 'all(x, P)').
 written(if/2, 'if(C, P, []) for an `if` without `else`').
 written((par)/2, 'conc(P, Q)').
 written((conc)/1, 'conc(P, Q)').
 
-other_name(primitive_action/1, prim_action(_), prim_action/1).
-other_name(primitive_fluent/1, prim_fluent(_), prim_fluent/1).
-other_name(exogenous_action/1, exog_action(_), exog_action/1).
+other_name(primitive_action(_), prim_action(_),
+           'prim_action/1, or use library(ev3dev/golog_classic)').
+other_name(primitive_fluent(_), prim_fluent(_), prim_fluent/1).
+other_name(exogenous_action(_), exog_action(_), exog_action/1).

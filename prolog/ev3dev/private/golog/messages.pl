@@ -1,4 +1,6 @@
 :- module(ev3dev_golog_messages, []).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
 
 /** <module> The messages of library(ev3dev/golog)
 */
@@ -7,6 +9,22 @@
 
 prolog:message(golog(Message)) -->
     words(Message).
+
+%   Operators of library(ev3dev/golog_classic)
+
+prolog:message(error(syntax_error(operator_expected),
+                     file(File, Line, Column, Offset))) -->
+    { \+ current_op(_, xfy, user:(#)),
+      catch(read_file_to_string(File, Text, []), error(_, _), fail),
+      sub_string(Text, Offset, 3, _, Near),
+      member(Operator, [#, &, ' v ']),
+      sub_string(Near, _, _, _, Operator)
+    },
+    [ '~w:~w:~w: Operator expected: ~w is one of '-
+      [File, Line, Column, Operator],
+      'library(ev3dev/golog_classic), which is not loaded: first'-[], nl,
+      '  use_module(library(ev3dev/~w)).'-[golog_classic]
+    ].
 
 words(no_initial_value(Where, Fluent)) -->
     { functor(Fluent, Name, Arity) },

@@ -9,7 +9,9 @@
             weak_construct/1,           % ?Program
             parts/5,                    % +Program0, ?Use, -Parts0, ?Parts,
                                         % -Program
-            condition_construct/1       % ?Condition
+            condition_construct/1,      % ?Condition
+            in_books/2,                 % ?Condition, -Ours
+            negated/2                   % +Condition, -Negated
           ]).
 :- use_module(library(lists), [append/3]).
 
@@ -66,6 +68,8 @@ construct('$within'(_, _)).
 construct(for(_, _, _)).
 construct(??(_)).
 construct(exogint(_, _)).
+construct(_ : _).
+construct(#(_, _)).
 
 %!  weak_construct(?Program) is nondet.
 %
@@ -147,6 +151,48 @@ condition_construct((_ ; _)).
 condition_construct((_ -> _)).
 condition_construct(\+ _).
 condition_construct(not(_)).
+
+%!  in_books(?Condition, -Ours) is semidet.
+%
+%   Ours is how this library writes the Condition of Reiter's book "Knowledge
+%   in Action" (2001), unless the domain gives it a meaning.
+
+in_books(&(P, Q), and(P, Q)).
+in_books(v(P, Q), or(P, Q)).
+in_books(-(P), N) :-
+    negated(P, N).
+in_books(=>(P, Q), impl(P, Q)).
+in_books(<=>(P, Q), equiv(P, Q)).
+
+%!  negated(+Condition, -Negated) is det.
+%
+%   Negated holds if Condition does not. Its positive parts come first, so
+%   they can bind variables. After Lloyd, Topor: Making Prolog more expressive
+%   (1984).
+
+negated(P, N) :-
+    (   nonvar(P),
+        opposite(P, N0)
+    ->  N = N0
+    ;   N = neg(P)
+    ).
+
+opposite(neg(P), P).
+opposite(\+ P, P).
+opposite(and(P, Q), or(M, N)) :-
+    negated(P, M),
+    negated(Q, N).
+opposite(or(P, Q), and(M, N)) :-
+    negated(P, M),
+    negated(Q, N).
+opposite(impl(P, Q), and(P, N)) :-
+    negated(Q, N).
+opposite(equiv(P, Q), or(and(P, neg(Q)), and(Q, neg(P)))).
+opposite(all(V, P), some(V, N)) :-
+    negated(P, N).
+opposite(P, N) :-
+    in_books(P, Q),
+    negated(Q, N).
 
 %   binder(+Term, -Variables, -Outside, -Scope): Term binds Variables, one or
 %   a list, in the terms Scope. Outside is a domain, outside of their scope.

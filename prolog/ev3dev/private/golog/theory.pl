@@ -12,11 +12,14 @@
             is_sensing_action/2,        % +Action, +Module
             rules_out/2,                % +Action, +Module
             is_set_by_exogenous/2,      % +Fluent, +Module
+            program_in/4,               % +Module0, +Program0, -Module,
+                                        % -Program
+            precondition/3,             % +Action, -Condition, +Module
+            located_precondition/4,     % +Action, -Condition, -Place, +Module
             proc_body/3,                % +Call, -Body, +Module
             initial_value/3,            % +Fluent, -Value, +Module
             located/3,                  % +Module, +What, -Place
             proc_place/4,               % +Proc, +Term, +Module, -Place
-            clause_location/2,          % +Ref, -Place
             domain_list/3               % +Sort, +Module, -Values
           ]).
 :- use_module(library(lists), [append/3, member/2]).
@@ -88,6 +91,17 @@ vocabulary(senses/1).
 vocabulary(causes/4).
 vocabulary(settles/5).
 vocabulary(rejects/5).
+vocabulary(primitive_action/1).
+vocabulary(restoreSitArg/3).
+vocabulary(restore_situation/3).
+
+%   What a domain of library(ev3dev/golog_classic) has, too. Its situation is
+%   a fluent. It is printed as S.
+
+with_situations(( prim_action(A) :- primitive_action(A) )).
+with_situations(prim_fluent('$VAR'('S'))).
+with_situations(initially('$VAR'('S'), s0)).
+with_situations(causes_val(A, '$VAR'('S'), do(A, S), S = '$VAR'('S'))).
 
 %!  declare_domain(+Module) is det.
 %
@@ -96,7 +110,13 @@ vocabulary(rejects/5).
 %   and its clauses may stand in any order and in several files.
 
 declare_domain(Module) :-
-    forall(vocabulary(PI), declare(Module, PI)).
+    forall(vocabulary(PI), declare(Module, PI)),
+    (   predicate_property(Module:situation_history(_, _),
+                           imported_from(ev3dev_golog_classic)),
+        \+ Module:prim_fluent('$VAR'('S'))
+    ->  forall(with_situations(Clause), assertz(Module:Clause))
+    ;   true
+    ).
 
 declare(Module, Name/Arity) :-
     catch(( dynamic(Module:Name/Arity),
@@ -155,6 +175,7 @@ prepare(Module) :-
         retractall(uncertain(Module)),
         forall(kind(Kind, Head, Term),
                note_heads(Module, Kind, Head, Term)),
+        conditions_checked(Module),
         note_binders(Module),
         note_possible_values(Module),
         assertz(prepared(Module, Signature))
@@ -171,6 +192,8 @@ kind(initial, initially(F, _), F).
 kind(sensed, senses(_, F), F).
 kind(sensed, senses(_, _, F, _, _), F).
 kind(proc, proc(P, _), P).
+kind(proc, Restore, P) :-
+    restored(Restore, P, _).
 kind(uncertain, settles(_, _, F, _, _), F).
 kind(uncertain, rejects(_, _, F, _, _), F).
 kind(uncertain, causes(_, F, _, _), F).
@@ -351,6 +374,87 @@ proc_body(Call, Body, Module) :-
         )
     ;   call(Module:proc(Call, Body))
     ).
+proc_body(Call, Body, Module) :-
+    restored(Restore, Call, Body),
+    has_clauses(Module, Restore),
+    call(Module:Restore).
+
+restored(restoreSitArg(P, '$VAR'('S'), Body), P, Body).
+restored(restore_situation(P, '$VAR'('S'), Body), P, Body).
+
+%!  program_in(+Module0, +Program0, -Module, -Program) is det.
+%
+%   Program0, in Module0, is Program of the domain in Module: in A : B the
+%   atom A is a module if there is one, and Module0 has no A.
+
+program_in(M0, E0, M, E) :-
+    (   nonvar(E0),
+        E0 = A:B,
+        atom(A),
+        current_predicate(_, A:_),
+        \+ ( prepare(M0),
+             ( is_kind(action, A, M0) ; is_kind(proc, A, M0) ) )
+    ->  program_in(A, B, M, E)
+    ;   M = M0,
+        E = E0
+    ).
+
+%!  precondition(+Action, -Condition, +Module) is nondet.
+%!  located_precondition(+Action, -Condition, -Place, +Module) is nondet.
+%
+%   A clause of poss/2 says that Action is possible if Condition holds. Place
+%   is File:Line of it, or `none`.
+
+precondition(A, Condition, M) :-
+    (   is_kind(fluent, '$VAR'('S'), M)
+    ->  Condition = poss(A, '$VAR'('S'))
+    ;   M:poss(A, Condition)
+    ).
+
+located_precondition(A, Condition, Place, M) :-
+    has_clauses(M, poss(_, _)),
+    (   is_kind(fluent, '$VAR'('S'), M)
+    ->  clause(M:poss(A, '$VAR'('S')), Condition, Ref)
+    ;   clause(M:poss(A, Condition), Body, Ref),
+        call(M:Body)
+    ),
+    clause_place(Ref, Place).
+
+%   The second argument of poss/2 is neither free nor a situation.
+
+conditions_checked(M) :-
+    (   \+ noted(fluent, '$VAR', 1, M),
+        has_clauses(M, poss(_, _)),
+        catch(clause(M:poss(A, Condition), Body, Ref), _, fail),
+        var(Condition),
+        ( Body == true ; is_situation(Condition, Body, M) )
+    ->  clause_place(Ref, Place),
+        place_text(Place, Where),
+        short(poss(A), Short),
+        format(atom(Text), '~w~p: the second argument is a condition, as in \c
+                            poss(Action, true), and not a situation. \c
+                            library(ev3dev/golog_classic) runs programs \c
+                            with situations', [Where, Short]),
+        throw_error(instantiation_error, _, Text)
+    ;   true
+    ).
+
+is_situation(S, Body, M) :-
+    compound(Body),
+    (   Body =.. [Name|Arguments],
+        append(_, [Last], Arguments),
+        Last == S,
+        functor(Body, Name, Arity),
+        functor(Head, Name, Arity),
+        has_clauses(M, Head),
+        arg(Arity, Head, Term),
+        catch(clause(M:Head, _), _, fail),
+        nonvar(Term),
+        memberchk(Term, [s0, do(_, _)])
+    ;   arg(_, Body, Goal),
+        is_situation(S, Goal, M)
+    ),
+    !.
 
 %!  initial_value(+Fluent, -Value, +Module) is semidet.
 %

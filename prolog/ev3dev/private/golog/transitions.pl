@@ -28,7 +28,9 @@
 :- use_module(programs,
               [construct/1, fresh/4, mapped/3, parts/5, weak_construct/1]).
 :- use_module(theory,
-              [is_exogenous/2, is_kind/3, located/3, proc_body/3]).
+              [ is_exogenous/2, is_kind/3, located/3,
+                located_precondition/4, precondition/3, proc_body/3
+              ]).
 :- use_module('../errors/errors', [throw_error/3]).
 
 /** <module> The language: which steps a program can take
@@ -135,6 +137,10 @@ ends(goal(Success, E, _, _), S, X) :-
     (   holds(Success, S, X)
     ;   is_final(E, S, X)
     ).
+ends(A : B, S, X) :-
+    is_final([A, B], S, X).
+ends(#(A, B), S, X) :-
+    ends(ndet(A, B), S, X).
 ends(for(V, D, E), S, X) :-
     for_program(V, D, E, S, X, Es),
     is_final(Es, S, X).
@@ -227,8 +233,7 @@ possible(A, S, X, M) :-
     ->  true
     ;   no_precondition(A, M)
     ),
-    (   M:poss(A, Condition),
-        is_condition(Condition, A),
+    (   precondition(A, Condition, M),
         (   holds(Condition, S, X)
         *-> true
         ;   blocked(A, Condition),
@@ -239,16 +244,6 @@ possible(A, S, X, M) :-
         fail
     ).
 
-is_condition(Condition, A) :-
-    (   nonvar(Condition)
-    ->  true
-    ;   functor(A, Name, Arity),
-        format(atom(Text), 'poss(~q, ..): the second argument is a \c
-                            condition, as in poss(Action, true), and not a \c
-                            situation', [Name/Arity]),
-        throw_error(instantiation_error, _, Text)
-    ).
-
 %!  made_possible(+Action, -Condition, +Situation, +Context) is det.
 %
 %   Condition is the one of poss/2 that holds for Action, else `true`.
@@ -256,7 +251,7 @@ is_condition(Condition, A) :-
 made_possible(A, Condition, S, X) :-
     context_module(X, M),
     (   is_kind(precondition, A, M),
-        M:poss(A, Condition0),
+        located_precondition(A, Condition0, _, M),
         holds(Condition0, S, X)
     ->  Condition = Condition0
     ;   Condition = true
@@ -303,6 +298,10 @@ step_construct(ndet(A, B), S, E1, S1, X) :-
     (   step(A, S, E1, S1, X)
     ;   step(B, S, E1, S1, X)
     ).
+step_construct(A : B, S, E1, S1, X) :-
+    step_construct([A, B], S, E1, S1, X).
+step_construct(#(A, B), S, E1, S1, X) :-
+    step_construct(ndet(A, B), S, E1, S1, X).
 step_construct(if(P, A, B), S, E1, S1, X) :-
     (   holds(P, S, X)
     *-> step(A, S, E1, S1, X)
@@ -696,6 +695,8 @@ on_the_way(at(Count, Histories), S) :-
 simplified(E0, E, X) :-
     (   var(E0)
     ->  E = E0
+    ;   E0 = (A : B)
+    ->  simplified([A, B], E, X)
     ;   E0 = [First0|Rest]
     ->  simplified(First0, First, X),
         (   First \== []

@@ -9,9 +9,10 @@
 :- use_module(conditions, [holds/3]).
 :- use_module(situation, [situation_count/2, situation_history/2]).
 :- use_module(values, [fluent_value/4]).
-:- use_module(programs, [fresh/4, parts/5]).
+:- use_module(programs, [fresh/4, in_books/2, parts/5]).
 :- use_module(theory,
-              [clause_location/2, has_clauses/2, is_kind/3, proc_body/3]).
+              [ is_kind/3, located_precondition/4, precondition/3, proc_body/3
+              ]).
 :- use_module(transitions, [step/5]).
 
 /** <module> Why an action is not done
@@ -34,21 +35,15 @@ hindrance(A, E, Why, S, X) :-
 
 possible(A, S, X, M) :-
     M:prim_action(A),
-    M:poss(A, Condition),
+    precondition(A, Condition, M),
     holds(Condition, S, X).
 
 %   Each clause of poss/2 for the action, and what is false in it
 
 failure(A, failure(Part, Values, Place), S, X, M) :-
-    has_clauses(M, poss(_, _)),
-    clause(M:poss(A, Condition), Body, Ref),
-    call(M:Body),
+    located_precondition(A, Condition, Place, M),
     false_part(Condition, Part, S, X),
-    values_in(Part, Values, S, X),
-    (   clause_location(Ref, Place)
-    ->  true
-    ;   Place = none
-    ).
+    values_in(Part, Values, S, X).
 
 %   false_part(+Condition, -Part, +Situation, +Context) is semidet: Part is
 %   that of a conjunction which is false, if those before it hold.
@@ -65,6 +60,9 @@ false_part(P, Part, S, X) :-
     ;   nonvar(P),
         P = and([Q|Qs])
     ->  false_part(and(Q, and(Qs)), Part, S, X)
+    ;   nonvar(P),
+        in_books(P, Q)
+    ->  false_part(Q, Part, S, X)
     ;   context_module(X, M),
         nonvar(P),
         is_kind(proc, P, M),
@@ -78,7 +76,8 @@ false_part(P, Part, S, X) :-
 values_in(P, Values, S, X0) :-
     in_mode(possible, X0, X),
     findall(F = V,
-            ( fluent_in(P, F, S, X), ground(F), fluent_value(F, V, S, X) ),
+            ( fluent_in(P, F, S, X), ground(F), F \= '$VAR'(_),
+              fluent_value(F, V, S, X) ),
             Values0),
     sort(Values0, Values).
 
