@@ -160,6 +160,12 @@ says("ERROR: -g start: Stack limit (1.0Gb) exceeded\nERROR:   Stack sizes: local
       ERROR:   Possible non-terminating recursion:\nERROR:     [13,420,840] user:deep(13420830)\n\c
       ERROR:     [13,420,839] user:deep(13420829)",
      'It ended at 3.0 s: Stack limit (1.0Gb) exceeded: deep calls itself without end').
+says("ERROR: -g start: Stack limit (1.0Gb) exceeded\nERROR:   Stack depth: 11\nERROR:   In:\n\c
+      ERROR:     [11] system:'$length'(_132, 300000000)\nERROR:     [9] user:start\n\c
+      ERROR:     [8] system:catch(<compound (:)/2>, _168, <compound (:)/2>)\nERROR: \n\c
+      ERROR: Use the --stack_limit=size[KMG] command line option or\n\c
+      ERROR: ?- set_prolog_flag(stack_limit, 2_147_483_648). to double the limit.",
+     'It ended at 3.0 s: Stack limit (1.0Gb) exceeded').
 says("ERROR: /a/mine.pl:1: Initialization goal raised exception:\n\c
       ERROR: '$run_init_goal'/1: Unknown procedure: nothing/1",
      'It ended at 3.0 s: Line 1: Initialization goal raised exception: \c

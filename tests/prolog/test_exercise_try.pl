@@ -44,6 +44,9 @@ says(a_recursion_without_end,
        "plan(S, G, [N|P]) :- e(S, N), plan(N, G, P).",
        "start :- robot, plan(a, c, P), print(P)." ],
      "mine.pl:5: plan/3 calls itself without end: the stack of * MB is full*").
+says(a_list_without_end,
+     [ "start :- robot, length(L, 300000000), print(L)." ],
+     "mine.pl:3: start/0 needs too much memory: the stack of * MB is full").
 says(a_misspelt_predicate_in_a_rule,
      [ "start :- robot, behave([avoid]).",
        "avoid :: us_dist_cm(in1, Cm), Cm > 3 ~> tun(20)." ],

@@ -165,13 +165,17 @@ is_ours(Called) :-
 prolog:message(error(resource_error(_), Overflow)) -->
     { nonvar(Overflow),
       is_dict(Overflow, stack_overflow),
-      fills(Overflow, Call),
-      functor(Call, Name, Arity),
       get_dict(stack_limit, Overflow, Kilobytes),
-      Megabytes is ceiling(Kilobytes/1024)
+      Megabytes is ceiling(Kilobytes/1024),
+      (   fills(Overflow, Call, Does)
+      ->  functor(Call, Name, Arity),
+          format(atom(Who), '~q', [Name/Arity])
+      ;   Who = 'the program',
+          Call = none,
+          Does = 'needs too much memory'
+      )
     },
-    [ '~q calls itself without end: the stack of ~d MB is full'-
-      [Name/Arity, Megabytes] ],
+    [ '~w ~w: the stack of ~d MB is full'-[Who, Does, Megabytes] ],
     last_call(Call).
 
 %   Parts of large arguments are left out there.
@@ -187,10 +191,15 @@ last_call(Call) -->
 last_call(_) -->
     [].
 
-fills(Overflow, Call) :-
+fills(Overflow, Call, Does) :-
     one_of([cycle, non_terminating, stack], Key),
     get_dict(Key, Overflow, Frames),
-    ( Key == stack -> get_dict(depth, Overflow, Depth), Depth > 1000 ; true ),
+    (   Key == stack,
+        get_dict(depth, Overflow, Depth),
+        Depth =< 1000
+    ->  Does = 'needs too much memory'
+    ;   Does = 'calls itself without end'
+    ),
     one_of(Frames, frame(_, Module:Call, _)),
     \+ in_pack(Module:Call, _, _),
     \+ is_of_system(Module:Call),

@@ -96,9 +96,13 @@ rank(_, _, Text, 1) :-
     string_concat("-g ", _, Text),
     !.
 rank(_, _, Text, _) :-
-    member(Begin, [ "Prolog initialisation failed:", % 7.2.3's
-                    "Goal (directive) failed" ]),    % the error is said
-    string_concat(Begin, _, Text),
+    (   atom_length(Text, 0)
+    ;   member(Begin, [ "Prolog initialisation failed:", % 7.2.3's
+                        "Goal (directive) failed",       % the error is said
+                        "Use the --stack_limit",
+                        "?- set_prolog_flag(stack_limit" ]),
+        string_concat(Begin, _, Text)
+    ),
     !,
     fail.
 rank("ERROR: ", Where, _, Rank) :-
@@ -143,13 +147,16 @@ without_call(Text0, Text) :-
 without_stack(Text0, Text) :-
     (   sub_string(Text0, 0, _, _, "Stack limit "),
         sub_string(Text0, Before, _, _, " exceeded"),
-        sub_string(Text0, 0, Before, _, Limit),
-        sub_string(Text0, _, _, From, "] user:"),
-        sub_string(Text0, _, From, 0, Goal),
-        sub_string(Goal, Length, 1, _, "("),
-        sub_string(Goal, 0, Length, _, Name)
-    ->  format(string(Text), "~w exceeded: ~w calls itself without end",
-               [Limit, Name])
+        sub_string(Text0, 0, Before, _, Limit)
+    ->  (   sub_string(Text0, _, _, From, "] user:"),
+            sub_string(Text0, _, From, 0, Goal),
+            sub_string(Goal, Length, 1, _, "("),
+            sub_string(Goal, 0, Length, _, Name),
+            \+ sub_string(Name, _, _, _, " ")
+        ->  format(string(Text),
+                   "~w exceeded: ~w calls itself without end", [Limit, Name])
+        ;   string_concat(Limit, " exceeded", Text)
+        )
     ;   Text = Text0
     ).
 
