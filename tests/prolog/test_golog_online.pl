@@ -171,7 +171,7 @@ test(an_idle_interrupt_waits, R-H == timeout-[b, ring]) :-
     golog_lab:golog(prioritized_interrupts(
                         [ interrupt(and(ringing, neg(done(b))), b),
                           interrupt(true, ?(wait_exog_action)) ]),
-                    [timeout(0.1), reason(R), history(H)]).
+                    [timeout(1), reason(R), history(H)]).
 test(interrupts_that_wait_for_each_other,
      H == [off(2), call(2), off(3), off(1)]) :-
     with_domain_of_calls(2, H).
