@@ -126,6 +126,56 @@ test(an_elevator_of_eight_floors_and_six_calls_is_searched_in_time,
 test(achieve_plans_the_least_steps, Run == [all_off]) :-
     once(golog_lab:do(achieve(neg(some(x, light(x) = on))), H)),
     msort(H, Run).
+test(achieve_computes_with_values, [Length, More] == [17, 0]) :-
+    elevator(Clauses),
+    with_domain([(prim_action(serve(N)) :- between(1, 8, N))|Clauses], M,
+                ( once(do(M:achieve(and(neg(some(n, called(n) = yes)), floor = 1)), H)),
+                  length(H, Length),
+                  findall(x, do(M:achieve(floor = 9), _), Never),
+                  length(Never, More) )).
+test(achieve_gives_up_values_without_end, H == [up, up]) :-
+    with_domain([ prim_action(up), poss(up, true), prim_fluent(n),
+                  initially(n, 0), causes_val(up, n, N, N is n+1) ],
+                M, once(do(M:achieve(n = 2), H))).
+
+%   With a clause of forget/2 the native planner is not for the domain.
+
+test(achieve_natively_is_achieve_by_trying,
+     [forall(between(1, 40, Seed)), true(Natively == Tried)]) :-
+    random_domain(Seed, Clauses, Goal),
+    least_steps(Clauses, Goal, Natively),
+    least_steps([(forget(none, none) :- fail)|Clauses], Goal, Tried).
+
+random_domain(Seed, Clauses, Goal) :-
+    Conditions = [ x = 1, x = y, y < 2, x+y =:= 3, light(1) = on, light(x) = on,
+                   light(2) = off, p, some(n, [0, 3], x = n), lit(x) ],
+    Effects = [ [x-N-and(N is x+1, N < 4), light(1)-off-(light(1) = on)],
+                [x-N-(N = y), p-true-(x < 2)], [x-0-p, y-1-true],
+                [y-N-and(N is 3-x, neg(y = N)), light(N)-on-(N = x)],
+                [p-false-(light(2) = on), light(N)-off-and(N is x-1, N > 0)] ],
+    findall(condition-action, between(1, 6, _), Kinds),
+    Construct =.. [domain, condition, condition|Kinds],
+    random_program(Seed, 1, words(Effects, Conditions, [Construct]), Domain),
+    Domain =.. [domain, Goal1, Goal2|Actions],
+    Goal = and(Goal1, Goal2),
+    findall(Clause,
+            ( nth1(A, Actions, If-Changes),
+              (   member(Clause, [prim_action(A), poss(A, If)])
+              ;   member(F-V-C, Changes),
+                  Clause = causes_val(A, F, V, C)
+              ) ),
+            Clauses0),
+    append([ prim_fluent(x), prim_fluent(y), prim_fluent(light(1)), prim_fluent(light(2)),
+             rel_fluent(p), initially(x, 0), initially(y, 0), initially(light(1), on),
+             initially(light(2), off), initially(p, false), proc(lit(N), light(N) = on) ],
+           Clauses0, Clauses).
+
+least_steps(Clauses, Goal, Least) :-
+    with_domain(Clauses, M,
+                (   once(do(M:achieve(Goal, [gives_up(steps(100000))]), H))
+                ->  length(H, Least)
+                ;   Least = none
+                )).
 :- end_tests(golog_search).
 
 :- begin_tests(golog_conditional).

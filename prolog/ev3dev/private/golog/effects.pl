@@ -7,6 +7,8 @@
             internal_effect/5,          % +Entry, +Situation0, +Context,
                                         % +Module, -Effect
             is_internal/1,              % +Entry
+            equations_for/4,            % +Fluent, +Condition, -Equations,
+                                        % -Rest
             caused/5                    % +Action, ?Fluent, -Value,
                                         % -Condition, +Module
           ]).
@@ -101,9 +103,7 @@ effect_if(F, V, Condition, S0, Context, M, Effect) :-
 %   the declaration of the fluent enumerates them.
 
 open_effect(F, V, Condition, S0, Context, M, Effect) :-
-    conjuncts(Condition, Conjuncts),
-    term_variables(F, Variables),
-    equations(Conjuncts, Variables, Equations, Rest),
+    equations_for(F, Condition, Equations, Rest),
     Equations \== [],
     !,
     all_hold(Equations, S0, Context),
@@ -166,6 +166,16 @@ shared(Xs, Ys) :-
     member(Y, Ys),
     X == Y,
     !.
+
+%!  equations_for(+Fluent, +Condition, -Equations, -Rest) is det.
+%
+%   Equations are the parts of the conjunction Condition that give variables
+%   of Fluent their values, Rest are the others.
+
+equations_for(F, Condition, Equations, Rest) :-
+    conjuncts(Condition, Conjuncts),
+    term_variables(F, Variables),
+    equations(Conjuncts, Variables, Equations, Rest).
 
 conjuncts(Condition, Conjuncts) :-
     (   var(Condition)

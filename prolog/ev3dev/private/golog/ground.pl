@@ -3,22 +3,86 @@
             ground_actions/2,           % +Module, -Actions
             ground_action/4,            % +Action, +Module, -Condition,
                                         % -Effects
-            ground_condition/3          % +Condition, +Module, -Expression
+            ground_condition/3,         % +Condition, +Module, -Expression
+            with_values_of/2,           % +Pairs, :Goal
+            value_added/3,              % +Fluent, +Value, +Module
+            possible_value/2,           % ?Fluent, ?Value
+            asked_for/2,                % :Goal, -Functors
+            is_relation/2,              % +Fluent, +Module
+            exclude/2                   % +Expression1, +Expression2
           ]).
 :- use_module(library(lists), [append/3, member/2]).
+:- use_module(effects, [equations_for/4]).
 :- use_module(programs, [condition_construct/1, fresh/4]).
 :- use_module(theory,
-              [ domain_list/3, has_clauses/2, is_kind/3, is_sensing_action/2,
-                names_fluent/2, proc_body/3
+              [ domain_list/3, has_clauses/2, is_fluent/2, is_kind/3,
+                is_sensing_action/2, names_fluent/2, proc_body/3
               ]).
 :- use_module('../errors/errors', [throw_error/3]).
 
-/** <module> A domain of Golog whose fluents are true or false, made ground
+/** <module> A domain of Golog, made ground
 
 What does not depend on fluents is decided here: of a condition remains an
-Expression of what has to be tested. It is `true`, `false`, a ground fluent,
-`[and|Es]`, `[or|Es]` or `[not, E]`. Planners can do with it what they like.
+Expression of what has to be tested. It is `true`, `false`, a ground fluent
+that is true, `Fluent = Value` for one with other values, `[and|Es]`,
+`[or|Es]` or `[not, E]`. Planners can do with it what they like.
+
+A condition may compute with the value of a fluent. It is decided for each
+value that the fluent may come to have, so these must be known:
+with_values_of/2, value_added/3.
 */
+
+:- meta_predicate with_values_of(+, 0), asked_for(0, -).
+
+:- thread_local
+    possible_/3,                        % Hash, Fluent, Value
+    asked_/1.                           % Name/Arity
+
+%!  with_values_of(+Pairs, :Goal) is semidet.
+%
+%   Run Goal once. While it runs, fluents have the values of Pairs, a list of
+%   Fluent-Value, and those that value_added/3 adds.
+
+with_values_of(Pairs, Goal) :-
+    setup_call_cleanup(
+        forall(member(F-V, Pairs), add_value(F, V)),
+        once(Goal),
+        retractall(possible_(_, _, _))).
+
+add_value(F, V) :-
+    term_hash(F, Hash),
+    assertz(possible_(Hash, F, V)).
+
+%!  value_added(+Fluent, +Value, +Module) is semidet.
+%
+%   Fluent, which is no relation, may come to have Value. Fails if that was
+%   known.
+
+value_added(F, V, M) :-
+    \+ is_relation(F, M),
+    \+ ( possible_value(F, V0), V0 == V ),
+    add_value(F, V).
+
+%!  possible_value(?Fluent, ?Value) is nondet.
+
+possible_value(F, V) :-
+    term_hash(F, Hash),                 % a variable if F has one
+    possible_(Hash, F, V).
+
+%!  asked_for(:Goal, -Functors) is semidet.
+%
+%   Run Goal once. Functors are a list of Name/Arity of the fluents whose
+%   values it asked for.
+
+asked_for(Goal, Functors) :-
+    retractall(asked_(_)),
+    once(Goal),
+    findall(Functor, asked_(Functor), Functors).
+
+asked_value(F, V) :-
+    functor(F, Name, Arity),
+    ( asked_(Name/Arity) -> true ; assertz(asked_(Name/Arity)) ),
+    possible_value(F, V).
 
 %!  only_relations(+Module) is det.
 %
@@ -45,7 +109,7 @@ ground_actions(M, As) :-
 
 %!  ground_action(+Action, +Module, -Condition, -Effects) is semidet.
 %
-%   Effects is a list of effect(Truth, Fluent, Condition). Fails if Action is
+%   Effects is a list of effect(Value, Fluent, Condition). Fails if Action is
 %   never possible.
 %
 %   @error domain_error(pddl_condition, Condition) if it is not only about
@@ -55,16 +119,39 @@ ground_action(A, M, Condition, Effects) :-
     findall(E, ( M:poss(A, P), residual(P, M, E) ), Es),
     any_of(Es, Condition),
     Condition \== false,
-    findall(Effect, effect(A, M, Effect), Effects).
+    findall(effect(V, F, P),
+            ( effect(A, M, F, V, P), \+ exclude(Condition, P) ),
+            Effects).
 
-effect(A, M, effect(Truth, F, E)) :-
+effect(A, M, F, V, E) :-
     (   M:causes_false(A, F, P),
-        Truth = false
+        V = false
     ;   M:causes_true(A, F, P),
-        Truth = true
+        V = true
+    ;   M:causes_val(A, F, V, P)
     ),
-    ( ground(F) -> true ; M:rel_fluent(F), must_be_ground(F) ),
-    residual(P, M, E).
+    (   ground(F)
+    ->  residual(P, M, E)
+    ;   equations_for(F, P, Equations, Rest),
+        residual(and(Equations), M, E1),
+        ( ground(F) -> true ; is_fluent(F, M) ),
+        residual(and(Rest), M, E2),
+        both(E1, E2, E)
+    ),
+    must_be_ground(F-V).
+
+%!  exclude(+Expression1, +Expression2) is semidet.
+%
+%   True if it is easily seen that both cannot hold, as they ask for two
+%   values of a fluent.
+
+exclude(E1, E2) :-
+    (   E1 = [or|Es]
+    ->  \+ ( member(E, Es), \+ exclude(E, E2) )
+    ;   E2 = [or|Es]
+    ->  \+ ( member(E, Es), \+ exclude(E1, E) )
+    ;   \+ both(E1, E2, _)
+    ).
 
 %!  ground_condition(+Condition, +Module, -Expression) is det.
 %
@@ -99,22 +186,73 @@ residual(P, M, E) :-
     ->  residual(neg(some(Vs, D, neg(Q))), M, E)
     ;   P = all(Vs, Q)
     ->  residual(neg(some(Vs, neg(Q))), M, E)
-    ;   is_kind(fluent, P, M),
-        P =.. [_|Arguments],
-        \+ names_fluent(Arguments, M),
-        \+ \+ M:rel_fluent(P)
-    ->  M:rel_fluent(P),
-        must_be_ground(P),
-        E = P
     ;   is_kind(proc, P, M)
     ->  proc_body(P, Q, M),
         residual(Q, M, E)
     ;   P \== true,
         P \== false,
-        ( condition_construct(P) ; names_fluent(P, M) )
+        ( condition_construct(P) ; P = _:_, names_fluent(P, M) )
     ->  undecided(P)
-    ;   call(M:P),
+    ;   arguments_with_values(P, P, Q, E1, M),
+        holds_with(Q, E2, M),
+        both(E1, E2, E)
+    ).
+
+holds_with(P, E, M) :-
+    (   \+ is_kind(fluent, P, M)
+    ->  call(M:P),
         E = true
+    ;   is_relation(P, M)
+    ->  M:rel_fluent(P),
+        must_be_ground(P),
+        E = P
+    ;   asked_value(P, true),
+        E = (P = true)
+    ).
+
+%!  is_relation(+Fluent, +Module) is semidet.
+
+is_relation(F, M) :-
+    \+ \+ M:rel_fluent(F).
+
+%   arguments_with_values(+Term0, +Condition, -Term, -Expression, +Module) is
+%   nondet.
+%
+%   Term is Term0, a part of Condition, with the fluents in its arguments
+%   replaced by values, if Expression holds.
+
+arguments_with_values(T0, P, T, E, M) :-
+    (   compound(T0)
+    ->  compound_name_arguments(T0, Name, Arguments0),
+        all_with_values(Arguments0, P, Arguments, E, M),
+        compound_name_arguments(T, Name, Arguments)
+    ;   T = T0,
+        E = true
+    ).
+
+all_with_values([], _, [], true, _).
+all_with_values([T0|Ts0], P, [T|Ts], E, M) :-
+    with_value(T0, P, T, E1, M),
+    all_with_values(Ts0, P, Ts, E2, M),
+    both(E1, E2, E).
+
+with_value(T0, P, T, E, M) :-
+    (   \+ names_fluent(T0, M)
+    ->  T = T0,
+        E = true
+    ;   arguments_with_values(T0, P, T1, E1, M),
+        (   \+ is_kind(fluent, T1, M)
+        ->  T = T1,
+            E = E1
+        ;   is_relation(T1, M)
+        ->  undecided(P)
+        ;   \+ asked_value(T1, _),
+            \+ is_fluent(T1, M)
+        ->  T = T1,
+            E = E1
+        ;   asked_value(T1, T),
+            both(E1, T1 = T, E)
+        )
     ).
 
 must_be_ground(F) :-
@@ -148,6 +286,9 @@ chosen([V-D|Choices], M) :-
     ),
     chosen(Choices, M).
 
+%   both(+Expression1, +Expression2, -Expression) is semidet: fails if they
+%   ask for two values of a fluent.
+
 both(P, Q, R) :-
     (   P == true
     ->  R = Q
@@ -155,6 +296,7 @@ both(P, Q, R) :-
     ->  R = P
     ;   parts_of(and, P, Ps),
         parts_of(and, Q, Qs),
+        \+ ( member(F = V1, Ps), member(F = V2, Qs), V1 \== V2 ),
         append(Ps, Qs, Rs),
         R = [and|Rs]
     ).

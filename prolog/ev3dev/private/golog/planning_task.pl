@@ -4,19 +4,22 @@
             task_plan/4                 % +Task, +Shortest, +Effort, -Plan
           ]).
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, put_assoc/4]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(effort, [counted_natively/3, effort_id/2, polled/1]).
 :- use_module(ground,
-              [ ground_action/4, ground_actions/2, ground_condition/3,
-                only_relations/1
+              [ asked_for/2, exclude/2, ground_action/4, ground_actions/2,
+                ground_condition/3, is_relation/2, possible_value/2,
+                value_added/3, with_values_of/2
               ]).
 :- use_module(theory, [has_clauses/2, has_possible_values/1]).
+:- use_module('../errors/errors', [domain_error/2]).
 :- use_module('../native/native', [planner_new_/6, planner_work_/4]).
 
-/** <module> Plans for domains whose fluents are true or false
+/** <module> Plans for domains that can be made ground
 
 A domain that `ground.pl` can make ground becomes a task of the native planner
-(`crates/planner`): its fluents and actions become numbers. A task is
+(`crates/planner`): its facts and actions become numbers. A fact is a relation
+that is true, or `Fluent = Value`. A task is
 
     task(Actions, Facts, Initial, NativeActions, Goal)
 
@@ -27,8 +30,8 @@ are the arguments of planner_new_/6.
 %!  task(+Module, +Goal, +Values, +Effort, -Task) is semidet.
 %
 %   Task is to reach the condition Goal from Values, a list of Fluent-Value.
-%   Fails if the domain has other fluents, or conditions that it does not
-%   decide by itself.
+%   Fails if the domain has conditions that it does not decide by itself, or
+%   if too many values are possible.
 
 task(M, Goal, Values, Effort, Task) :-
     catch(ground_task(M, Goal, Values, Effort, Task), error(Formal, Where),
@@ -36,25 +39,109 @@ task(M, Goal, Values, Effort, Task) :-
 
 ground_task(M, Goal, Values, Effort,
             task(Actions, N, Initial, Natives, GoalOfNumbers)) :-
-    only_relations(M),
     \+ has_possible_values(M),
-    \+ ( member(Head, [causes_val(_, _Fluent, _, _), forget(_, _)]),
-         has_clauses(M, Head) ),
-    \+ ( member(_-V, Values), V \== true, V \== false ),
-    ground_condition(Goal, M, GoalCondition),
-    ground_actions(M, As),
-    findall(ground(A, Condition, Effects),
-            ( member(A, As),
-              polled(Effort),
-              ground_action(A, M, Condition, Effects) ),
-            Grounds),
+    \+ has_clauses(M, forget(_, _)),
+    \+ ( member(F-V, Values), is_relation(F, M), V \== true, V \== false ),
+    findall(F-V, ( member(F-V, Values), \+ is_relation(F, M) ), Pairs),
+    with_values_of(Pairs, ground_domain(M, Goal, Effort, Grounds, Condition)),
     findall(A, member(ground(A, _, _), Grounds), Names),
     compound_name_arguments(Actions, actions, Names),
     empty_assoc(None),
     numbered_actions(Grounds, Natives, 0-None, Numbers0),
-    numbered(GoalCondition, GoalOfNumbers, Numbers0, N-Numbers),
-    findall(Fact, ( member(F-true, Values), get_assoc(F, Numbers, Fact) ),
+    numbered(Condition, GoalOfNumbers, Numbers0, N-Numbers),
+    findall(Number,
+            ( member(F-V, Values),
+              ( is_relation(F, M) -> V == true, Fact = F ; Fact = (F = V) ),
+              get_assoc(Fact, Numbers, Number) ),
             Initial).
+
+ground_domain(M, Goal, Effort, Grounds, Condition) :-
+    ground_actions(M, As),
+    findall(action(A, [], none), member(A, As), Actions0),
+    grounded(1, all, Actions0, M, Effort, Actions),
+    findall(ground(A, If, Facts),
+            ( member(action(A, _, ground(If, Effects)), Actions),
+              facts_of(Effects, If, M, Facts) ),
+            Grounds),
+    ground_condition(Goal, M, Condition).
+
+%   grounded(+Round, +Changed, +Actions0, +Module, +Effort, -Actions) is
+%   semidet.
+%
+%   An action is made ground again as long as fluents that it asks for come to
+%   have more values. It fails if a fluent seems to count up for ever.
+
+most_rounds(100).
+most_values(2000).
+
+grounded(Round, Changed, Actions0, M, Effort, Actions) :-
+    round(Actions0, Changed, Actions1, More, M, Effort),
+    (   More == []
+    ->  Actions = Actions1
+    ;   most_rounds(MostRounds),
+        Round < MostRounds,
+        findall(x, possible_value(_, _), Values),
+        length(Values, Count),
+        most_values(MostValues),
+        Count =< MostValues,
+        Round1 is Round+1,
+        grounded(Round1, More, Actions1, M, Effort, Actions)
+    ).
+
+round([], _, [], [], _, _).
+round([Action0|Actions0], Changed, [Action|Actions], More, M, Effort) :-
+    Action0 = action(A, Asked0, _),
+    (   Changed \== all,
+        \+ ( member(Functor, Asked0), memberchk(Functor, Changed) )
+    ->  Action = Action0,
+        More = More1
+    ;   polled(Effort),
+        asked_for(grounded_action(A, M, Ground), Asked),
+        Action = action(A, Asked, Ground),
+        findall(Name/Arity,
+                ( Ground = ground(_, Effects),
+                  member(effect(V, F, _), Effects),
+                  value_added(F, V, M),
+                  functor(F, Name, Arity) ),
+                New),
+        append(New, More1, More)
+    ),
+    round(Actions0, Changed, Actions, More1, M, Effort).
+
+grounded_action(A, M, Ground) :-
+    (   ground_action(A, M, If, Effects)
+    ->  Ground = ground(If, Effects)
+    ;   Ground = none
+    ).
+
+%   facts_of(+Effects, +If, +Module, -Facts) is semidet: Facts are the effects
+%   on facts. A value that becomes true makes others false.
+
+facts_of(Effects, If, M, Facts) :-
+    \+ ( append(_, [effect(V1, F, E1)|Others], Effects),
+         \+ is_relation(F, M),
+         member(effect(V2, F, E2), Others),
+         V1 \== V2,
+         \+ exclude(E1, E2),
+         must_be_one_value(F) ),
+    findall(effect(Truth, Fact, E),
+            ( member(effect(V, F, E), Effects),
+              (   is_relation(F, M)
+              ->  Truth = V,
+                  Fact = F
+              ;   possible_value(F, V0),
+                  Fact = (F = V0),
+                  (   V0 == V
+                  ->  Truth = true
+                  ;   Truth = false,
+                      \+ exclude(Fact, E),
+                      \+ exclude(Fact, If)
+                  )
+              ) ),
+            Facts).
+
+must_be_one_value(F) :-
+    domain_error(golog_planning, F).
 
 %   numbered(+Expression, -Numbered, +Numbers0, -Numbers): fluents become
 %   numbers. Numbers is Count-Assoc.
