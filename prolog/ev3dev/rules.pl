@@ -18,7 +18,7 @@
               [ domain_error/2, error_within/3, existence_error/2,
                 instantiation_error/1, throw_error/3, type_error/2
               ]).
-:- use_module(private/errors/error_texts, [shown/2]).
+:- use_module(private/errors/error_texts, [nearly/3, shown/2]).
 :- use_module(private/errors/frames, [goal_of_program/1]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments,
@@ -202,16 +202,25 @@ rule(Rule, _Module, _Name, _Options, _Guard, _Action) :-
 rule(Name, Module, Name, Options, Guard, Action) :-
     (   \+ callable(Name)
     ->  type_error(rule, Name)
-    ;   catch(Module:'$ev3dev rule'(Name, Options, Guard, Action),
-              error(existence_error(procedure, _), _), fail)
+    ;   rule_of(Module, Name, Options, Guard, Action)
     ->  true
     ;   atom(Name)
-    ->  existence_error(rule, Name)
+    ->  findall(Other, rule_of(Module, Other, _, _, _), Others),
+        (   nearly(Name, Others, Near)
+        ->  format(atom(Text), 'there is no rule ~w. Did you mean ~w?',
+                   [Name, Near]),
+            throw_error(existence_error(rule, Name), _, Text)
+        ;   existence_error(rule, Name)
+        )
     ;   shown(Name, Shown),
         format(atom(Text),
                'a rule is written Name :: Guard ~~> Action, not ~w', [Shown]),
         throw_error(existence_error(rule, Name), _, Text)
     ).
+
+rule_of(Module, Name, Options, Guard, Action) :-
+    catch(Module:'$ev3dev rule'(Name, Options, Guard, Action),
+          error(existence_error(procedure, _), _), fail).
 
 shared([], _, []).
 shared([V|Vs], Others, Shared) :-
@@ -346,8 +355,11 @@ ev3dev_causes:active_clause(Clause) :-
     nb_current(ev3dev_behavior, Behavior),
     Behavior \== [],
     active(Behavior, active(Index, _, _)),
-    Behavior = behavior(rules: Rules),
-    arg(Index, Rules, rule(name: Name, guard: (Module:_))),
+    rule_at(Index, Behavior, Rule),
+    rule_clause(Rule, Clause).
+
+rule_clause(Rule, Clause) :-
+    Rule = rule(name: Name, guard: (Module:_)),
     catch(clause(Module:'$ev3dev rule'(Name, _, _, _), true, Clause),
           error(_, _), fail),
     !.
@@ -479,18 +491,33 @@ goes_on(Module:Options, Name, Start, Behavior) :-
 
 %   An error names the rule.
 failed(E, Name, Where, Behavior) :-
-    (   E = error(permission_error(wait, guard, _), _)
-    ->  throw(E)
-    ;   E = error(_, _)
+    (   E = error(Formal, _)
     ->  Behavior = behavior(settings: settings(on_error: OnError)),
-        format(atom(Text), 'in the ~w of rule ~p', [Where, Name]),
-        error_within(E, Text, Named),
-        (   OnError == throw
+        rule_place(Name, Behavior, Place),
+        format(atom(Text), 'in the ~w of rule ~p~w', [Where, Name, Place]),
+        (   Formal = permission_error(wait, guard, _),
+            Place == ''
+        ->  Named = E                   % which names the rule
+        ;   error_within(E, Text, Named)
+        ),
+        (   ( OnError == throw ; Formal = permission_error(wait, guard, _) )
         ->  throw(Named)
         ;   print_message(error, Named),
             fail
         )
     ;   throw(E)
+    ).
+
+rule_place(Name, Behavior, Place) :-
+    Behavior = behavior(rules: Rules),
+    (   arg(_, Rules, Rule),
+        Rule = rule(name: Name),
+        rule_clause(Rule, Clause),
+        clause_property(Clause, file(File)),
+        clause_property(Clause, line_count(Line))
+    ->  file_base_name(File, Base),
+        format(atom(Place), ' (~w:~w)', [Base, Line])
+    ;   Place = ''
     ).
 
 :- multifile prolog:message//1.

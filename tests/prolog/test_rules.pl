@@ -389,8 +389,24 @@ drop_before(T0, Notes0, Notes) :-
 :- begin_tests(wrong).
 test(an_unknown_rule, error(existence_error(rule, nobody), context(behave/1, _))) :-
     behave([nobody]).
+test(a_misspelt_rule, Text == 'there is no rule wonder. Did you mean wander?') :-
+    load_text(misspelt, "wander :: true ~> go(20). avoid :: us_dist_cm(_, D), D < 9 ~> stop."),
+    catch(misspelt:behave([wonder]), error(existence_error(rule, wonder), context(_, Text)), true).
+test(an_error_names_file_and_line,
+     [ forall(member(Guard, ["atom_length(_, _)", "motor_run(outB, 20)"])),
+       true(sub_atom(Text, _, _, 0, 'in the guard of rule a (placed:1)')) ]) :-
+    format(string(Rule), "a :: ~s ~~> true.", [Guard]),
+    load_text(placed, Rule),
+    catch(with_sim([], placed:behave([a], [timeout(1)])), error(_, context(_, Text)), true).
 test(what_is_no_rule, [forall(member(R, [7, "x"])), error(type_error(rule, R), _)]) :-
     behave([R]).
+load_text(Module, Text) :-
+    setup_call_cleanup(
+        open_string(Text, In),
+        ( Module:use_module(library(ev3dev)), Module:use_module(library(ev3dev/rules)),
+          load_files(Module:Module, [stream(In)]) ),
+        close(In)).
+
 test(what_is_unbound, error(instantiation_error, _)) :-
     behave([_]).
 test(a_list_of_steps_as_a_part_of_an_action,

@@ -1,6 +1,7 @@
 :- module(ev3dev_error_texts,
           [ in_words/3,                 % +Formal, +Frame, -Text
             not_one_of/3,               % +Term, +Values, -Text
+            nearly/3,                   % +Term, +Values, -Value
             no_value/3,                 % ?Variable, +Frame, -Text
             shown/2,                    % +Term, -Shown
             is_word/1,                  % +Atom
@@ -113,8 +114,10 @@ not_one_of(Term, Values, Text) :-
     ;   format(atom(Text), '~w is not one of: ~w', [Shown, Listed])
     ).
 
-%   The only one of Values that is spelt nearly as Term, or begins so. Of an
-%   option the name counts.
+%!  nearly(+Term, +Values, -Value) is semidet.
+%
+%   Value is the only one of Values that is spelt nearly as Term, or begins
+%   so. Of an option the name counts.
 
 nearly(Term, Values, Value) :-
     (   atom(Term)
