@@ -3,7 +3,7 @@ use crate::glue::call::Call;
 use crate::glue::error::wrong_because;
 use crate::glue::terms::Prolog;
 use ev3_os::locked;
-use ev3_planner::{Action, Effect, Formula, Limits, Planner, Progress, Task};
+use ev3_planner::{Action, Effect, Formula, Limits, Planner, Progress, Rule, Task};
 use std::sync::{Arc, Mutex};
 use swipl::prelude::*;
 
@@ -17,22 +17,15 @@ struct PlannerBlob {
 }
 
 natives! {
-    /// planner_new_(+Facts, +Initial, +Actions, +Goal, +Cheapest, -Planner): facts is their
-    /// number, initial a list of facts, and actions a list of action(Condition, Effects), whose
-    /// effects are effect(Truth, Fact, Condition). Conditions are those of `ground.pl`, with the
-    /// numbers of facts.
-    semidet fn "planner_new_"(context, facts, initial, actions, goal, cheapest, planner) as call("do", 2) {
-        let task = Task {
-            facts: number(&call, facts)?,
-            initial: call.map_list(initial, |fact| number(&call, &fact))?,
-            actions: call.map_list(actions, |action| action_of(&call, &action))?,
-            rules: vec![],
-            goal: formula(&call, goal)?,
-        };
+    /// planner_new_(+Task, +Cheapest, -Planner): task(Facts, Initial, Actions, Rules, Goal). Facts
+    /// is their number, initial a list of facts, actions a list of action(Condition, Effects, Cost),
+    /// whose effects are effect(Truth, Fact, Condition), and rules a list of rule(Fact, Condition).
+    /// Conditions are those of `ground.pl`, with the numbers of facts.
+    semidet fn "planner_new_"(context, task, cheapest, planner) as call("do", 2) {
         let limits = Limits { cheapest: truth(&call, cheapest)?, bytes: BYTES };
-        match Planner::new(&task, &limits) {
+        match Planner::new(&task_of(&call, task)?, &limits) {
             Ok(made) => planner.unify(Arc::new(PlannerBlob { planner: Mutex::new(made) })),
-            Err(fault) => wrong_because(&call, "planning_task", goal, &fault.to_string()),
+            Err(fault) => wrong_because(&call, "planning_task", task, &fault.to_string()),
         }
     }
 
@@ -74,8 +67,19 @@ fn truth<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<bool> {
     Ok(&*call.text(term)? == "true")
 }
 
+fn task_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Task> {
+    let [facts, initial, actions, rules, goal] = call.arguments(term)?;
+    Ok(Task {
+        facts: number(call, &facts)?,
+        initial: call.map_list(&initial, |fact| number(call, &fact))?,
+        actions: call.map_list(&actions, |action| action_of(call, &action))?,
+        rules: call.map_list(&rules, |rule| rule_of(call, &rule))?,
+        goal: formula(call, &goal)?,
+    })
+}
+
 fn action_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Action> {
-    let [condition, effects] = call.arguments(term)?;
+    let [condition, effects, cost] = call.arguments(term)?;
     let effect = |term: Term<'a>| {
         let [value, fact, condition] = call.arguments(&term)?;
         Ok(Effect {
@@ -87,8 +91,13 @@ fn action_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult
     Ok(Action {
         condition: formula(call, &condition)?,
         effects: call.map_list(&effects, effect)?,
-        cost: 1,
+        cost: u32::try_from(call.integer(&cost)?).unwrap_or(u32::MAX),
     })
+}
+
+fn rule_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Rule> {
+    let [fact, condition] = call.arguments(term)?;
+    Ok(Rule { fact: number(call, &fact)?, condition: formula(call, &condition)? })
 }
 
 fn formula<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Formula> {

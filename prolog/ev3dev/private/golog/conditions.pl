@@ -10,7 +10,7 @@
 :- use_module(branches, [holds_if_assumed/4]).
 :- use_module(context,
               [ call_of/3, context_effort/2, context_mode/2, context_module/2,
-                dual/2, entered/4, in_mode/3
+                context_option/2, dual/2, entered/4, in_mode/3, with_option/3
               ]).
 :- use_module(effort, [asks_history/1, polled/1]).
 :- use_module(programs,
@@ -85,6 +85,10 @@ holds_atom(P, S, Context) :-
         entered(condition, P, Context, Context1),
         holds(Body, S, Context1)
     ;   context_module(Context, M),
+        is_kind(derived, P, M)
+    ->  derived_atom(P, Stratum, M),
+        is_derived(P, Stratum, S, Context)
+    ;   context_module(Context, M),
         is_kind(fluent, P, M)
     ->  evaluated_arguments(P, F, S, Context),
         (   known_or_declared(F, S, M)
@@ -94,6 +98,58 @@ holds_atom(P, S, Context) :-
         )
     ;   evaluated_arguments(P, Goal, S, Context),
         call_of(P, Goal, Context)
+    ).
+
+%   The derived atoms of PDDL are the least that their rules make true. They
+%   are found by rounds. In one each atom is asked for once, with what is
+%   derived so far; it is the last if it derives nothing new. The absence of
+%   an atom is asked for in higher strata only, when its own is complete.
+
+:- thread_local
+    derived/3,                          % Hash, Id, Atom
+    asked/4.                            % Hash, Id, Stratum, Atom
+
+derived_atom(P, Stratum, M) :-
+    findall(Stratum-P, M:pddl_derived(Stratum, P, _), Atoms0),
+    sort(Atoms0, Atoms),
+    member(Stratum-P, Atoms).
+
+is_derived(P, Stratum, S, X0) :-
+    (   context_option(deriving(Id, Around, S0), X0),
+        same_term(S0, S)
+    ->  (   Around =:= Stratum
+        ->  derived(P, Stratum, Id, S, X0)
+        ;   with_option(deriving(Id, Stratum, S), X0, X),
+            derived_in_rounds(P, Stratum, Id, S, X)
+        )
+    ;   flag(ev3dev_golog_derived, Id, Id+1),
+        with_option(deriving(Id, Stratum, S), X0, X),
+        call_cleanup(once(derived_in_rounds(P, Stratum, Id, S, X)),
+                     ( retractall(derived(_, Id, _)),
+                       retractall(asked(_, Id, _, _)) ))
+    ).
+
+derived_in_rounds(P, Stratum, Id, S, X) :-
+    flag(ev3dev_golog_derived_now, Now0, Now0),
+    (   derived(P, Stratum, Id, S, X)
+    ->  retractall(asked(_, Id, Stratum, _))
+    ;   flag(ev3dev_golog_derived_now, Now, Now),
+        Now > Now0,
+        retractall(asked(_, Id, Stratum, _)),
+        derived_in_rounds(P, Stratum, Id, S, X)
+    ).
+
+derived(P, Stratum, Id, S, X) :-
+    term_hash(P, Hash),
+    (   derived(Hash, Id, P)
+    ->  true
+    ;   \+ asked(Hash, Id, Stratum, P),
+        assertz(asked(Hash, Id, Stratum, P)),
+        context_module(X, M),
+        M:pddl_derived(_, P, Condition),
+        holds(Condition, S, X)
+    ->  assertz(derived(Hash, Id, P)),
+        flag(ev3dev_golog_derived_now, Now, Now+1)
     ).
 
 %!  all_hold(+Conditions, +Situation, +Context) is nondet.

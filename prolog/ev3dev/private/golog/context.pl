@@ -2,6 +2,7 @@
           [ context/3,                  % +Module, +Options, -Context
             context_module/2,           % +Context, -Module
             context_option/2,           % ?Option, +Context
+            with_option/3,              % +Option, +Context0, -Context
             context_mode/2,             % +Context, -Mode
             in_mode/3,                  % ?Mode, +Context0, -Context
             dual/2,                     % +Context0, -Context
@@ -52,6 +53,7 @@ the value of a fluent is the set of these.
 %!  context(+Module, +Options, -Context) is det.
 %!  context_module(+Context, -Module) is det.
 %!  context_option(?Option, +Context) is semidet.
+%!  with_option(+Option, +Context0, -Context) is det.
 
 context(Module, Options, context(Module, Options, [], none, none, Mode)) :-
     mode(Options, Module, Mode).
@@ -62,6 +64,9 @@ context_module(Context, Module) :-
 context_option(Option, Context) :-
     Context = context(options: Options),
     memberchk(Option, Options).
+
+with_option(Option, context(M, Options, Calls, Record, Effort, Mode),
+            context(M, [Option|Options], Calls, Record, Effort, Mode)).
 
 mode(Options, Module, Mode) :-
     (   \+ memberchk(conditional, Options)

@@ -3,6 +3,7 @@
             ground_actions/2,           % +Module, -Actions
             ground_action/4,            % +Action, +Module, -Condition,
                                         % -Effects
+            ground_rules/2,             % +Module, -Rules
             ground_condition/3,         % +Condition, +Module, -Expression
             with_values_of/2,           % +Pairs, :Goal
             value_added/3,              % +Fluent, +Value, +Module
@@ -153,6 +154,18 @@ exclude(E1, E2) :-
     ;   \+ both(E1, E2, _)
     ).
 
+%!  ground_rules(+Module, -Rules) is det.
+%
+%   Rules is a list of rule(Fluent, Condition) for the derived fluents.
+
+ground_rules(M, Rules) :-
+    findall(rule(F, E),
+            ( has_clauses(M, pddl_derived(_, _, _)),
+              M:pddl_derived(_, F, P),
+              ground_condition(P, M, E),
+              E \== false ),
+            Rules).
+
 %!  ground_condition(+Condition, +Module, -Expression) is det.
 %
 %   @error domain_error(pddl_condition, Condition), as above
@@ -186,6 +199,9 @@ residual(P, M, E) :-
     ->  residual(neg(some(Vs, D, neg(Q))), M, E)
     ;   P = all(Vs, Q)
     ->  residual(neg(some(Vs, neg(Q))), M, E)
+    ;   is_kind(derived, P, M)
+    ->  must_be_ground(P),
+        E = P
     ;   is_kind(proc, P, M)
     ->  proc_body(P, Q, M),
         residual(Q, M, E)

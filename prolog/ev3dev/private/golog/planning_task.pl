@@ -1,6 +1,7 @@
 :- module(ev3dev_golog_planning_task,
-          [ task/5,                     % +Module, +Goal, +Values, +Effort,
-                                        % -Task
+          [ task/6,                     % +Module, +Goal, +Values, +Costs,
+                                        % +Effort, -Task
+            cost/4,                     % +Costs, +Action, +Module, -Cost
             task_plan/4                 % +Task, +Shortest, +Effort, -Plan
           ]).
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, put_assoc/4]).
@@ -8,12 +9,12 @@
 :- use_module(effort, [counted_natively/3, effort_id/2, polled/1]).
 :- use_module(ground,
               [ asked_for/2, exclude/2, ground_action/4, ground_actions/2,
-                ground_condition/3, is_relation/2, possible_value/2,
-                value_added/3, with_values_of/2
+                ground_condition/3, ground_rules/2, is_relation/2,
+                possible_value/2, value_added/3, with_values_of/2
               ]).
 :- use_module(theory, [has_clauses/2, has_possible_values/1]).
-:- use_module('../errors/errors', [domain_error/2]).
-:- use_module('../native/native', [planner_new_/6, planner_work_/4]).
+:- use_module('../errors/errors', [domain_error/2, throw_error/3]).
+:- use_module('../native/native', [planner_new_/3, planner_work_/4]).
 
 /** <module> Plans for domains that can be made ground
 
@@ -21,41 +22,46 @@ A domain that `ground.pl` can make ground becomes a task of the native planner
 (`crates/planner`): its facts and actions become numbers. A fact is a relation
 that is true, or `Fluent = Value`. A task is
 
-    task(Actions, Facts, Initial, NativeActions, Goal)
+    task(Actions, Native)
 
-Actions is a compound term, so that each is found by its number. The others
-are the arguments of planner_new_/6.
+Actions is a compound term, so that each is found by its number. Native is the
+task of planner_new_/3.
 */
 
-%!  task(+Module, +Goal, +Values, +Effort, -Task) is semidet.
+%!  task(+Module, +Goal, +Values, +Costs, +Effort, -Task) is semidet.
 %
 %   Task is to reach the condition Goal from Values, a list of Fluent-Value.
-%   Fails if the domain has conditions that it does not decide by itself, or
+%   If Costs is true, actions have the costs of action_cost/2, else each costs
+%   1. Fails if the domain has conditions that it does not decide by itself, or
 %   if too many values are possible.
 
-task(M, Goal, Values, Effort, Task) :-
-    catch(ground_task(M, Goal, Values, Effort, Task), error(Formal, Where),
-          ( Formal = resource_error(_), throw(error(Formal, Where)) )).
+task(M, Goal, Values, Costs, Effort, Task) :-
+    catch(ground_task(M, Goal, Values, Costs, Effort, Task),
+          error(Formal, Where),
+          ( member(Formal, [resource_error(_), domain_error(action_cost, _)]),
+            throw(error(Formal, Where)) )).
 
-ground_task(M, Goal, Values, Effort,
-            task(Actions, N, Initial, Natives, GoalOfNumbers)) :-
+ground_task(M, Goal, Values, Costs, Effort,
+            task(Actions, task(N, Initial, Natives, Rules, NumberedGoal))) :-
     \+ has_possible_values(M),
     \+ has_clauses(M, forget(_, _)),
     \+ ( member(F-V, Values), is_relation(F, M), V \== true, V \== false ),
     findall(F-V, ( member(F-V, Values), \+ is_relation(F, M) ), Pairs),
-    with_values_of(Pairs, ground_domain(M, Goal, Effort, Grounds, Condition)),
+    with_values_of(Pairs, ground_domain(M, Goal, Effort, Grounds, GroundRules,
+                                        Condition)),
     findall(A, member(ground(A, _, _), Grounds), Names),
     compound_name_arguments(Actions, actions, Names),
     empty_assoc(None),
-    numbered_actions(Grounds, Natives, 0-None, Numbers0),
-    numbered(Condition, GoalOfNumbers, Numbers0, N-Numbers),
+    numbered_actions(Grounds, Costs, M, Natives, 0-None, Numbers0),
+    numbered_rules(GroundRules, Rules, Numbers0, Numbers1),
+    numbered(Condition, NumberedGoal, Numbers1, N-Numbers),
     findall(Number,
             ( member(F-V, Values),
               ( is_relation(F, M) -> V == true, Fact = F ; Fact = (F = V) ),
               get_assoc(Fact, Numbers, Number) ),
             Initial).
 
-ground_domain(M, Goal, Effort, Grounds, Condition) :-
+ground_domain(M, Goal, Effort, Grounds, Rules, Condition) :-
     ground_actions(M, As),
     findall(action(A, [], none), member(A, As), Actions0),
     grounded(1, all, Actions0, M, Effort, Actions),
@@ -63,6 +69,7 @@ ground_domain(M, Goal, Effort, Grounds, Condition) :-
             ( member(action(A, _, ground(If, Effects)), Actions),
               facts_of(Effects, If, M, Facts) ),
             Grounds),
+    ground_rules(M, Rules),
     ground_condition(Goal, M, Condition).
 
 %   grounded(+Round, +Changed, +Actions0, +Module, +Effort, -Actions) is
@@ -168,13 +175,20 @@ all_numbered([E|Es], [N|Ns], Numbers0, Numbers) :-
     numbered(E, N, Numbers0, Numbers1),
     all_numbered(Es, Ns, Numbers1, Numbers).
 
-numbered_actions([], [], Numbers, Numbers).
-numbered_actions([ground(_, Condition, Effects)|Grounds],
-                 [action(ConditionOfNumbers, NativeEffects)|Natives],
+numbered_actions([], _, _, [], Numbers, Numbers).
+numbered_actions([ground(A, Condition, Effects)|Grounds], Costs, M,
+                 [action(ConditionOfNumbers, NativeEffects, Cost)|Natives],
                  Numbers0, Numbers) :-
+    cost(Costs, A, M, Cost),
     numbered(Condition, ConditionOfNumbers, Numbers0, Numbers1),
     numbered_effects(Effects, NativeEffects, Numbers1, Numbers2),
-    numbered_actions(Grounds, Natives, Numbers2, Numbers).
+    numbered_actions(Grounds, Costs, M, Natives, Numbers2, Numbers).
+
+numbered_rules([], [], Numbers, Numbers).
+numbered_rules([rule(F, Condition)|Rules0], [rule(Fact, NativeIf)|Rules],
+               Numbers0, Numbers) :-
+    all_numbered([F, Condition], [Fact, NativeIf], Numbers0, Numbers1),
+    numbered_rules(Rules0, Rules, Numbers1, Numbers).
 
 numbered_effects([], [], Numbers, Numbers).
 numbered_effects([effect(Truth, F, If)|Effects],
@@ -183,13 +197,32 @@ numbered_effects([effect(Truth, F, If)|Effects],
     all_numbered([F, If], [Fact, Condition], Numbers0, Numbers1),
     numbered_effects(Effects, Natives, Numbers1, Numbers).
 
+%!  cost(+Costs, +Action, +Module, -Cost) is det.
+%
+%   @error domain_error(action_cost, Action) if action_cost/2 has no whole
+%          number for it
+
+cost(Costs, A, M, Cost) :-
+    (   Costs == true,
+        has_clauses(M, action_cost(_, _))
+    ->  (   M:action_cost(A, Cost0),
+            number(Cost0),
+            Cost is truncate(Cost0),
+            Cost =:= Cost0,
+            between(0, 1000000000, Cost)
+        ->  true
+        ;   throw_error(domain_error(action_cost, A), _,
+                        'action_cost/2 has no whole number from 0 on for it')
+        )
+    ;   Cost = 1
+    ).
+
 %!  task_plan(+Task, +Shortest, +Effort, -Plan) is semidet.
 %
-%   Plan is a list of actions, a shortest one if Shortest is true.
+%   Plan is a list of actions, a cheapest one if Shortest is true.
 
-task_plan(task(Actions, Facts, Initial, Natives, Goal), Shortest, Effort,
-          Plan) :-
-    planner_new_(Facts, Initial, Natives, Goal, Shortest, Planner),
+task_plan(task(Actions, Native), Shortest, Effort, Plan) :-
+    planner_new_(Native, Shortest, Planner),
     planned(Planner, 0, Effort, Numbers),
     findall(A, ( member(Number, Numbers),
                  At is Number+1,

@@ -16,7 +16,7 @@
 :- use_module(values, [fluents_now/3]).
 :- use_module(effort, [counted/2, effort_id/2, how_far/2, polled/1]).
 :- use_module(visited_states, [state_key/4, states_forgotten/1, tried/5]).
-:- use_module(planning_task, [task/5, task_plan/4]).
+:- use_module(planning_task, [cost/4, task/6, task_plan/4]).
 :- use_module(theory, [has_clauses/2, is_kind/3, is_sensing_action/2]).
 :- use_module(transitions, [in_atom/3, is_final/3, step/5]).
 :- use_module('../errors/errors', [domain_error/2]).
@@ -523,7 +523,7 @@ must_be_achieve_options(Options) :-
 
 is_achieve_option(Option) :-
     compound(Option),
-    (   Option = shortest(Truth)
+    (   ( Option = shortest(Truth) ; Option = cheapest(Truth) )
     ->  nonvar(Truth),
         memberchk(Truth, [true, false])
     ;   functor(Option, Name, 1),
@@ -542,15 +542,24 @@ achieving_plan(Goal, Options, S, Plan, X) :-
     context_effort(X, Effort),
     context_module(X, M),
     fluents_now(S, X, Values),
-    (   task(M, Goal, Values, Effort, Task)
-    ->  ( memberchk(shortest(false), Options) -> Shortest = false
-        ; Shortest = true ),
+    (   memberchk(cheapest(true), Options)
+    ->  Costs = true,
+        Method = dijkstra
+    ;   Costs = false,
+        Method = breadth_first
+    ),
+    (   task(M, Goal, Values, Costs, Effort, Task)
+    ->  (   Costs == false,
+            memberchk(shortest(false), Options)
+        ->  Shortest = false
+        ;   Shortest = true
+        ),
         task_plan(Task, Shortest, Effort, Plan)
     ;   planner_loaded,
         Problem = problem(state(Values), goal,
                           [ successor(ev3dev_golog_search:
-                                          successor(Goal, X)) ]),
-        ev3dev_search:plan(breadth_first, Problem, Plan0),
+                                          successor(Goal, Costs, X)) ]),
+        ev3dev_search:plan(Method, Problem, Plan0),
         append(Plan, [end], Plan0)
     ),
     Plan = [_|_].
@@ -598,14 +607,15 @@ valued([], []).
 valued([F-V|Pairs], [F-v(0, V)|Valued]) :-
     valued(Pairs, Valued).
 
-:- public successor/6.
+:- public successor/7.
 
-successor(Goal, X, State0, Action, State, 1) :-
+successor(Goal, Costs, X, State0, Action, State, Cost) :-
     State0 = state(_),
     situation_of(State0, S0),
     (   holds(Goal, S0, X)
     ->  Action = end,
-        State = goal
+        State = goal,
+        Cost = 1
     ;   context_effort(X, Effort),
         counted(0, Effort),
         context_module(X, M),
@@ -615,5 +625,7 @@ successor(Goal, X, State0, Action, State, 1) :-
         is_kind(precondition, Action, M),
         \+ is_sensing_action(Action, M),
         step(Action, S0, [], S, X),
+        cost(Costs, Action, M, Cost0),
+        Cost is Cost0*1000000+1,        % a planner knows no cost of 0
         state_of(S, X, State)
     ).

@@ -53,6 +53,7 @@ vocabulary(exog_action/1).
 vocabulary(prim_fluent/1).
 vocabulary(rel_fluent/1).
 vocabulary(fun_fluent/1).
+vocabulary(action_cost/2).
 vocabulary(poss/2).
 vocabulary(initially/2).
 vocabulary(causes_val/4).
@@ -187,6 +188,7 @@ kind(fluent, fun_fluent(F), F).
 kind(relational, rel_fluent(F), F).
 kind(action, prim_action(A), A).
 kind(exogenous, exog_action(A), A).
+kind(derived, pddl_derived(_, F, _), F).
 kind(precondition, poss(A, _), A).
 kind(initial, initially(F, _), F).
 kind(sensed, senses(_, F), F).
@@ -252,8 +254,8 @@ note_binders(Module) :-
 %
 %   True if a clause of the domain is about a Kind with the name and number of
 %   arguments of Term. Kind is one of `fluent`, `relational`, `action`,
-%   `exogenous`, `precondition`, `initial`, `sensed`, `proc`, `uncertain`. A
-%   clause whose head is a variable is asked.
+%   `exogenous`, `derived`, `precondition`, `initial`, `sensed`, `proc`,
+%   `uncertain`. A clause whose head is a variable is asked.
 
 is_kind(Kind, Term, Module) :-
     (   compound(Term)

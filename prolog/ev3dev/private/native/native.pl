@@ -116,7 +116,7 @@
             process_usage_/5,           % _, _, _, _, _
             sim_fence_close_/0,
             % src/planner.rs
-            planner_new_/6,             % +Facts, +Initial, +Actions, ..
+            planner_new_/3,             % +Task, +Cheapest, -Planner
             planner_work_/4,            % +Planner, +Steps, -Progress, -States
             % src/ports.rs
             port_set_mode_/2,           % +Port, +Mode
