@@ -237,7 +237,7 @@ tests([unknown_procedures, signatures, libraries, own_help, help_index],
 tests([schedule, time_limits],            [sim_time, sim]).
 tests([ports],                            [ports, hints]).
 tests([prompt],                           [events]).
-tests([planning_task, ground, pddl_text, s_expressions], [pddl]).
+tests([planning_task, ground, pddl_grammar, pddl_text, s_expressions], [pddl]).
 tests([roadmap_arguments],                [roadmap, navigation]).
 tests([robot],                            [robot, hints]).
 tests([sensor_type],                      [sensors, calibrate, raw]).

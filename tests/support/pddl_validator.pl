@@ -1,5 +1,6 @@
 :- module(pddl_validator,
-          [ verdict/4                   % +Domain, +Problem, +Plan, -Verdict
+          [ verdict/4,                  % +Domain, +Problem, +Plan, -Verdict
+            plan_cost/4                 % +Domain, +Problem, +Plan, -Cost
           ]).
 :- use_module(library(lists)).
 :- use_module(library(readutil)).
@@ -29,14 +30,16 @@ verdict(Domain, Problem, Plan, Verdict) :-
     run(Plan, State, World, Verdict0),
     (   Verdict0 = state(End)
     ->  member([':goal', Goal], P),
-        ( true(Goal, [], End, World) -> Verdict = solved
+        closed(End, World, Closed),
+        ( true(Goal, [], Closed, World) -> Verdict = solved
         ; Verdict = unsolved )
     ;   Verdict = Verdict0
     ),
     !.
 
 run([], State, _, state(State)).
-run([Term|Plan], State0, World, Verdict) :-
+run([Term|Plan], State00, World, Verdict) :-
+    closed(State00, World, State0),
     Term =.. [Name|Arguments],
     World = world(D, _, _),
     (   member([':action', Name|Parts], D),
@@ -48,12 +51,58 @@ run([Term|Plan], State0, World, Verdict) :-
     ->  value(':effect', Parts, [and], Effect),
         findall(A, change(Effect, Bindings, State0, World, add(A)), Adds),
         findall(A, change(Effect, Bindings, State0, World, del(A)), Dels),
-        subtract(State0, Dels, State1),
+        subtract(State00, Dels, State1),
         append(Adds, State1, State2),
         sort(State2, State),
         run(Plan, State, World, Verdict)
     ;   Verdict = impossible(Term)
     ).
+
+%   The state with what is derived. Each predicate is complete before the next
+%   in the file, whose rules may ask for its absence.
+
+closed(State0, World, State) :-
+    World = world(D, _, _),
+    findall(Name, member([':derived', [Name|_], _], D), Names0),
+    list_to_set(Names0, Names),
+    foldl(completed(World), Names, State0, State).
+
+completed(World, Name, State0, State) :-
+    World = world(D, _, _),
+    findall([Name|Arguments],
+            ( member([':derived', [Name|List], Condition], D),
+              pairs(List, Parameters),
+              bound(Parameters, Arguments, World, Bindings),
+              true(Condition, Bindings, State0, World) ),
+            New),
+    append(New, State0, State1),
+    sort(State1, State2),
+    ( State2 == State0 -> State = State0
+    ; completed(World, Name, State2, State) ).
+
+%!  plan_cost(+Domain, +Problem, +Plan, -Cost) is det.
+
+plan_cost(Domain, Problem, Plan, Cost) :-
+    parsed(Domain, [define, _|D]),
+    parsed(Problem, [define, _|P]),
+    member([':init'|Init], P),
+    findall(C, ( member(Term, Plan),
+                 Term =.. [Name|Arguments],
+                 member([':action', Name|Parts], D),
+                 value(':parameters', Parts, [], List),
+                 pairs(List, Parameters),
+                 pairs_keys(Parameters, Variables),
+                 pairs_keys_values(Bindings, Variables, Arguments),
+                 value(':effect', Parts, [and], [and|Effects]),
+                 member([increase, ['total-cost'], Value], Effects),
+                 (   Value = [_|_]
+                 ->  put(Value, Bindings, Function),
+                     member([=, Function, Number], Init)
+                 ;   Number = Value
+                 ),
+                 atom_number(Number, C) ),
+            Cs),
+    sum_list(Cs, Cost).
 
 value(Key, [Key, Value|_], _, Value) :- !.
 value(Key, [_|Rest], Default, Value) :- !, value(Key, Rest, Default, Value).
@@ -108,6 +157,7 @@ change([forall, L, E], B, S, W, C) :-
     append(B1, B, B2),
     change(E, B2, S, W, C).
 change([not, A0], B, _, _, del(A)) :- !, put(A0, B, A).
+change([increase|_], _, _, _, _) :- !, fail.
 change(A0, B, _, _, add(A)) :- put(A0, B, A).
 
 put([], _, []).

@@ -2,11 +2,13 @@
           [ pddl_parts/2                % +Module, -Parts
           ]).
 :- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module(ground,
               [ ground_action/4, ground_actions/2, ground_condition/3,
-                only_relations/1
+                ground_rules/2, only_relations/1
               ]).
-:- use_module(theory, [prepare/1]).
+:- use_module(planning_task, [cost/4]).
+:- use_module(theory, [has_clauses/2, prepare/1]).
 :- use_module('../errors/errors', [throw_error/3]).
 
 /** <module> A domain of Golog as PDDL
@@ -17,8 +19,9 @@ without parameters: ground.pl.
 
 %!  pddl_parts(+Module, -Parts) is det.
 %
-%   Parts is parts(Objects, Predicates, Actions, Init, Goal), in the lists of
-%   s_expressions.pl. An action is action(Name, Condition, Effects).
+%   Parts is parts(Objects, Predicates, Rules, Actions, Init, Goal), which are
+%   lists as in the text. An action is action(Name, Condition, Effects). There
+%   are costs if and only if an effect is [increase|_].
 %
 %   @error domain_error(pddl_fluent, Fluent) if it has other values than true
 %          and false
@@ -26,7 +29,7 @@ without parameters: ground.pl.
 %   @error domain_error(pddl_name, Term) if two have the same name in PDDL
 %   @error existence_error(pddl_goal, Module)
 
-pddl_parts(M, parts(Objects, Predicates, Actions, Init, Goal)) :-
+pddl_parts(M, parts(Objects, Predicates, Rules, Actions, Init, Goal)) :-
     prepare(M),
     only_relations(M),
     (   M:proc(pddl_goal, Goal0)
@@ -34,7 +37,9 @@ pddl_parts(M, parts(Objects, Predicates, Actions, Init, Goal)) :-
     ;   throw_error(existence_error(pddl_goal, M), _,
                     'there is no proc(pddl_goal, Condition)')
     ),
-    findall(F, ( M:rel_fluent(F), ground(F) ), Fs0),
+    ground_rules(M, GroundRules),
+    findall(F, ( M:rel_fluent(F), ground(F)
+               ; member(rule(F, _), GroundRules) ), Fs0),
     sort(Fs0, Fs),
     ground_actions(M, As),
     findall(Argument, ( member(F, Fs), F =.. [_|Arguments],
@@ -43,20 +48,46 @@ pddl_parts(M, parts(Objects, Predicates, Actions, Init, Goal)) :-
     distinct_names(AllArguments, Objects),
     distinct_names(As, _),
     distinct_names(Fs, _),
-    findall([Name|Vs], ( member(F, Fs), F =.. [Name0|Arguments1],
-                         name_of(Name0, Name), variables(Arguments1, 1, Vs) ),
-            Predicates0),
+    findall(F, derived(M, F), Derived),
+    append(Derived, Fs, AllFs),
+    findall(Head, ( member(F, AllFs), head(F, Head, _) ), Predicates0),
     sort(Predicates0, Predicates),
+    findall((Stratum-Head)-[and, Condition|Equations],
+            ( member(rule(F, E), GroundRules),
+              once(M:pddl_derived(Stratum, F, _)),
+              head(F, Head, Equations),
+              text_of(E, Condition0),
+              ( Condition0 == true -> Condition = [and]
+              ; Condition = Condition0 ) ),
+            Cases0),
+    keysort(Cases0, Cases),
+    group_pairs_by_key(Cases, Groups),
+    findall([':derived', Head, [or|Alternatives]],
+            member((_-Head)-Alternatives, Groups), Rules),
     findall(Action, ( member(A, As), action(A, M, Action) ), Actions),
-    findall(E, ( member(F, Fs), once(M:initially(F, V)), V == true,
+    findall(E, ( member(F, Fs),
+                 \+ member(rule(F, _), GroundRules),
+                 once(M:initially(F, V)), V == true,
                  atom_of(F, E) ), Init),
     condition(Goal0, M, Goal).
 
-variables([], _, []).
-variables([_|As], N, [V|Vs]) :-
+derived(M, F) :-
+    has_clauses(M, pddl_derived(_, _, _)),
+    clause(M:pddl_derived(_, F, _), _).
+
+%   head(+Atom, -Head, -Equations): Head has a variable for each argument.
+
+head(F, [Name|Vs], Equations) :-
+    F =.. [Name0|Arguments],
+    name_of(Name0, Name),
+    equations(Arguments, 1, Vs, Equations).
+
+equations([], _, [], []).
+equations([A0|As], N, [V|Vs], [[=, V, A]|Equations]) :-
+    ( var(A0) -> true ; name_of(A0, A) ),
     atom_concat('?x', N, V),
     N1 is N+1,
-    variables(As, N1, Vs).
+    equations(As, N1, Vs, Equations).
 
 %   A name of PDDL has small letters, digits, - and _, and begins with a
 %   letter.
@@ -111,7 +142,10 @@ action(A, M, action(Name, Condition, Effects)) :-
     ground_action(A, M, E, Effects0),
     text_of(E, Condition),
     action_name(A, Name),
-    findall(Effect, ( member(Effect0, Effects0), effect(Effect0, Effect) ),
+    findall(Effect, ( member(Effect0, Effects0), effect(Effect0, Effect)
+                    ; has_clauses(M, action_cost(_, _)),
+                      cost(true, A, M, Cost),
+                      Effect = [increase, ['total-cost'], Cost] ),
             Effects).
 
 effect(effect(Truth, F, E), Effect) :-

@@ -1,86 +1,131 @@
 :- module(ev3dev_golog_s_expressions,
-          [ expression/3                % +Stream, +Path, -Expression
+          [ expression/3,               % +Stream, +Path, -Expression
+            wrong/3,                    % +Path, +Place, +Why
+            wrong/4,                    % +Path, +Place, +Why, +Formal
+            place_text/4                % +Path, +Place, +Why, -Text
           ]).
-:- use_module(library(readutil), [read_stream_to_codes/2]).
 :- use_module('../errors/errors', [throw_error/3]).
 
 /** <module> Lists in round brackets, as PDDL is written
+
+An expression is e(Line:Column, Item), where Item is an atom in small letters
+or a list of expressions. A column is that of an editor in which a tab goes on
+to the next multiple of 8.
 */
 
 %!  expression(+Stream, +Path, -Expression) is det.
 %
-%   Expression is the only one in Stream: a list, whose elements are lists and
-%   atoms in small letters. From a semicolon on a line is a comment.
+%   Expression is the only one in Stream. From a semicolon on a line is a
+%   comment. A `?` begins a new word, and `-` before a letter is one.
 %
-%   @error syntax_error(pddl), with Path and line
+%   @error syntax_error(pddl), with Path, line and column
 
 expression(Stream, Path, Expression) :-
-    read_stream_to_codes(Stream, Codes),
-    (   skipped(Codes, 1, Codes1, Line1),
-        item(Codes1, Line1, Path, Expression, Codes2, Line2),
-        skipped(Codes2, Line2, Codes3, Line3)
-    ->  (   Codes3 == []
-        ->  true
-        ;   wrong(Path, Line3, 'something stands after the last bracket')
-        )
-    ;   wrong(Path, 1, 'the file is empty')
-    ).
-
-item([0'(|Codes], Line, Path, Items, Rest, Line1) :-
-    !,
-    items(Codes, Line, Path, Line, Items, Rest, Line1).
-item([0')|_], Line, Path, _, _, _) :-
-    !,
-    wrong(Path, Line, 'a bracket is closed that was not opened').
-item(Codes, Line, _, Atom, Rest, Line) :-
-    word(Codes, Word, Rest),
-    Word \== [],
-    atom_codes(Atom0, Word),
-    downcase_atom(Atom0, Atom).
-
-items(Codes0, Line0, Path, Opened, Items, Rest, Line) :-
-    skipped(Codes0, Line0, Codes, Line1),
-    (   Codes == []
-    ->  wrong(Path, Opened, 'this bracket is not closed')
-    ;   Codes = [0')|Rest0]
-    ->  Items = [],
-        Rest = Rest0,
-        Line = Line1
-    ;   item(Codes, Line1, Path, Item, Codes1, Line2),
-        Items = [Item|Items1],
-        items(Codes1, Line2, Path, Opened, Items1, Rest, Line)
-    ).
-
-word([C|Codes], [C|Word], Rest) :-
-    \+ code_type(C, space),
-    \+ memberchk(C, [0'(, 0'), 0';]),
-    !,
-    word(Codes, Word, Rest).
-word(Rest, [], Rest).
-
-%   Blanks and comments; the lines are counted.
-
-skipped([C|Codes], Line0, Rest, Line) :-
-    code_type(C, space),
-    !,
-    (   C =:= 0'\n
-    ->  Line1 is Line0+1
-    ;   Line1 = Line0
+    skip_blank(Stream, C),
+    (   C =:= -1
+    ->  wrong(Path, 1:1, 'the file is empty'-[])
+    ;   item(C, Stream, Path, open(1:1, 0), Expression)
     ),
-    skipped(Codes, Line1, Rest, Line).
-skipped([0';|Codes0], Line0, Rest, Line) :-
-    !,
-    comment(Codes0, Codes),
-    skipped(Codes, Line0, Rest, Line).
-skipped(Rest, Line, Rest, Line).
-
-comment([], []).
-comment([C|Codes0], Codes) :-
-    (   C =:= 0'\n
-    ->  Codes = [C|Codes0]
-    ;   comment(Codes0, Codes)
+    skip_blank(Stream, Next),
+    (   Next =:= -1
+    ->  true
+    ;   place(Stream, Place),
+        wrong(Path, Place, 'there is text after the last bracket'-[])
     ).
 
-wrong(Path, Line, Why) :-
-    format(atom(Text), '~w:~d: ~w', [Path, Line, Why]),
-    throw_error(syntax_error(pddl), _, Text).
+%   item(+Code, +Stream, +Path, +Around, -Expression) is det. Around is
+%   open(Place, Depth) of the list in which it is.
+
+item(C, Stream, Path, Around, e(Place, Item)) :-
+    place(Stream, Place),
+    (   C =:= 0'(
+    ->  get_code(Stream, _),
+        Around = open(_, Depth0),
+        Depth is Depth0+1,
+        skip_blank(Stream, First),
+        (   First =:= 0':,
+            Depth > 2
+        ->  not_closed(Around, ' before the next section', Path)
+        ;   items(First, Stream, Path, open(Place, Depth), First, Item)
+        )
+    ;   C =:= 0')
+    ->  wrong(Path, Place, 'a bracket is closed that was not opened'-[])
+    ;   get_code(Stream, _),
+        peek_code(Stream, Next),
+        (   C =:= 0'-,
+            code_type(Next, alpha)
+        ->  Item = (-)
+        ;   word(Stream, Codes),
+            atom_codes(Atom, [C|Codes]),
+            downcase_atom(Atom, Item)
+        )
+    ).
+
+%   items(+Code, +Stream, +Path, +Open, +First, -Items) is det. A keyword
+%   such as :effect is in no list that does not begin with one.
+
+items(C, Stream, Path, Open, First, Items) :-
+    (   C =:= 0')
+    ->  get_code(Stream, _),
+        Items = []
+    ;   C =:= -1
+    ->  not_closed(Open, '', Path)
+    ;   C =:= 0':,
+        First =\= 0':
+    ->  not_closed(Open, ' before the next keyword', Path)
+    ;   Items = [Item|Items1],
+        item(C, Stream, Path, Open, Item),
+        skip_blank(Stream, Next),
+        items(Next, Stream, Path, Open, First, Items1)
+    ).
+
+not_closed(open(Place, _), Before, Path) :-
+    wrong(Path, Place, 'this bracket is not closed~w'-[Before]).
+
+word(Stream, Codes) :-
+    peek_code(Stream, C),
+    (   ( memberchk(C, [-1, 0'(, 0'), 0';, 0'?]) ; code_type(C, space) )
+    ->  Codes = []
+    ;   get_code(Stream, _),
+        Codes = [C|Rest],
+        word(Stream, Rest)
+    ).
+
+%   skip_blank(+Stream, -Code) is det: Code comes after blanks and comments.
+
+skip_blank(Stream, Code) :-
+    peek_code(Stream, C),
+    (   C =:= 0';
+    ->  skip(Stream, 0'\n),
+        skip_blank(Stream, Code)
+    ;   code_type(C, space)
+    ->  get_code(Stream, _),
+        skip_blank(Stream, Code)
+    ;   Code = C
+    ).
+
+place(Stream, Line:Column) :-
+    line_count(Stream, Line),
+    line_position(Stream, Before),
+    Column is Before+1.
+
+%!  wrong(+Path, +Place, +Why).
+%!  wrong(+Path, +Place, +Why, +Formal).
+%
+%   @error Formal, else syntax_error(pddl), with Path, line, column and Why,
+%          which is Format-Arguments
+
+wrong(Path, Place, Why) :-
+    wrong(Path, Place, Why, syntax_error(pddl)).
+
+wrong(Path, Place, Why, Formal) :-
+    place_text(Path, Place, Why, Text),
+    throw_error(Formal, _, Text).
+
+%!  place_text(+Path, +Place, +Why, -Text) is det.
+%
+%   Why is Format-Arguments.
+
+place_text(Path, Line:Column, Format-Arguments, Text) :-
+    format(atom(Why), Format, Arguments),
+    format(atom(Text), '~w:~d:~d: ~w', [Path, Line, Column, Why]).

@@ -1,0 +1,5 @@
+(define (problem doors-5) (:domain doors)
+  (:objects r1 r2 r3 r4 r5 - room k1 k2 - key)
+  (:init (robot r1) (open r1 r2) (open r2 r3) (open r3 r1)
+         (lies k1 r3) (fits k1 r2 r4) (lies k2 r4) (fits k2 r1 r5))
+  (:goal (and (not (cut-off r5)) (robot r4))))

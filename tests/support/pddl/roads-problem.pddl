@@ -1,0 +1,7 @@
+(define (problem roads-4) (:domain roads)
+  (:objects a b c d - place)
+  (:init (at a) (waits d) (road a b) (road b c) (road c d) (road a d) (road d a)
+         (= (total-cost) 0) (= (length a b) 2) (= (length b c) 1) (= (length c d) 3)
+         (= (length a d) 9) (= (length d a) 0))
+  (:goal (and (loaded) (at a)))
+  (:metric minimize (total-cost)))
