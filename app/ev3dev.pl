@@ -194,7 +194,7 @@ call_command(mark, [Exercise|Named], Options) :-
     ),
     forall(( member(mark(Name, Points, Of, _, _, Reason), Marks),
              normalize_space(atom(Line), Name) ),
-           format("~w~t~24|~w of ~w~t~36|~w~n", [Line, Points, Of, Reason])),
+           format("~w ~t~24|~w of ~w~t~36|~w~n", [Line, Points, Of, Reason])),
     format("The reports: ~w~n", [Folder]).
 call_command(jog, [], Options) :-
     start_world_if_any(realtime, Options),

@@ -601,7 +601,8 @@ most_often(Results, Reason) :-
         msort(Counted, [_-First|_]),
         nth1(First, Whys, Reason0),
         length(Whys, Bad),
-        length(Results, All),
+        findall(x, member(result(_, result(seconds: _)), Results), Made),
+        length(Made, All),
         (   Bad =:= All
         ->  Reason = Reason0
         ;   format(atom(Reason), '~w (in ~d of ~d runs)',

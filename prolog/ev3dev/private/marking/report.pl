@@ -136,10 +136,14 @@ style :-
     format(":root { color-scheme: light dark; font-family: sans-serif }~n\c
             main { max-width: 60rem; margin: auto; padding: 0 1rem; \c
             overflow-wrap: anywhere }~n\c
-            table { border-collapse: collapse; margin: 1rem 0 }~n\c
+            table { border-collapse: collapse; margin: 1rem 0; \c
+            overflow-wrap: break-word }~n\c
             th, td { padding: .3rem .6rem; text-align: left; \c
             border-bottom: 1px solid #8886; vertical-align: top }~n\c
             td.n, th.n { text-align: right }~n\c
+            td:first-child, td:last-child { overflow-wrap: anywhere }~n\c
+            .sort th:first-child { min-width: 8rem }~n\c
+            th.r { min-width: 14rem }~n\c
             .two { display: flex; gap: 1rem }~n\c
             .two pre { flex: 1; min-width: 0; overflow-x: auto }~n\c
             .bar { background: #36c; height: .7rem; min-width: 1px }~n\c
@@ -187,7 +191,7 @@ one_page(Exercise, Shown, marked(_, Mark, Results, _)) :-
     format("</table></div>~n<h2>Runs</h2>~n<div class=\"wide\"><table>~n\c
             <tr><th class=\"n\">Run<th class=\"n\">Seed\c
             <th class=\"n\">Points<th class=\"n\">Seconds<th>End\c
-            <th>Remark~n", []),
+            <th class=\"r\">Remark~n", []),
     forall(( nth1(N, Runs, run(Seed, P, Ended, Seconds)),
              nth1(N, Results, result(_, Result)) ),
            ( ( shown(Seed, Shown) -> Says = Seed ; Says = secret ),
@@ -243,7 +247,7 @@ class_body(Scores, Class, Pages, Marked) :-
     histogram(Marked),
     format("<div class=\"wide\"><table class=\"sort\">~n<tr><th>Program\c
             <th class=\"n\">Points<th class=\"n\">of<th>Share\c
-            <th>Worst run<th>Remark~n", []),
+            <th>Worst run<th class=\"r\">Remark~n", []),
     forall(member(One, Marked), class_row(One, Pages)),
     format("</table></div>~n", []),
     missed_scores(Scores, Count, Marked),
