@@ -11,7 +11,7 @@
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/private/simulation/random_seed),
               [begin_chance/1]).
-:- use_module(library(ev3dev/private/batch/message_text), [message_text/2]).
+:- use_module(library(ev3dev/private/errors/message_text), [message_text/2]).
 :- use_module(library(ev3dev/private/processes/descriptors),
               [dropped/1, taken/3]).
 :- use_module(library(unix), [fork/1, wait/2]).

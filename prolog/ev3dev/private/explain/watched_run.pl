@@ -2,15 +2,13 @@
           [ watched_run/2               % +Seconds, :Goal
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(error_messages, [in_words//1]).
 :- use_module(last_goal, [outcome/2, watched/4]).
 :- use_module('../basics/small_lists', [append_lists/3, one_of/2]).
 :- use_module('../errors/error_texts', [shown/2]).
 :- use_module('../errors/frames', [program/1]).
+:- use_module('../errors/message_text', [message_text/2]).
 :- use_module('../native/native', [now_/1]).
 :- use_module('../run/waits', [leave/2, listening/3]).
-:- use_module(library(lists), [nth1/3]).
-:- use_module(library(readutil), [read_file_to_string/3]).
 
 /** <module> A run of a program that is to be explained
 
@@ -102,27 +100,14 @@ in_rule(error(_, Context), Place) :-
     sub_atom(Text, _, _, 0, Text1),
     atom_concat('rule ', Text2, Text1),
     atomic_list_concat([Rule|_], ';', Text2),
-    program(Path),
-    line_of(Path, Rule, Line),
+    Head = '$ev3dev rule'(Rule, _, _, _),
+    catch(clause(user:Head, true, Clause), error(_, _), fail),
     !,
-    file_base_name(Path, File),
-    format(atom(Place), '~w:~d: ', [File, Line]).
-
-line_of(Path, Rule, Line) :-
-    read_file_to_string(Path, Text, []),
-    split_string(Text, "\n", "", Lines),
-    nth1(Line, Lines, Text1),
-    split_string(Text1, ":", " ", [Begin, ""|_]),
-    atom_string(Rule, Begin),
-    !.
+    clause_place(Clause, Place).
 
 said_by(Place, Message) :-
-    in_words(Message, Lines, []),
-    with_output_to(string(Text),
-                   print_message_lines(current_output, '', Lines)),
-    split_string(Text, "\n", " \t", Parts0),
-    findall(Part, ( one_of(Parts0, Part), Part \== "" ), Parts),
-    atomic_list_concat(Parts, ' ', Line),
+    message_text(Message, Text),
+    normalize_space(atom(Line), Text),
     why('~w~w', [Place, Line]).
 
 % ---------------- NO SUCH GOAL
@@ -188,12 +173,15 @@ place_of(Called, Place) :-
         Called = _:Plain,
         functor(Plain, Name, Arity)
     ),
+    clause_place(Clause, Place),
+    !.
+place_of(_, '').
+
+clause_place(Clause, Place) :-
     clause_property(Clause, file(Path)),
     clause_property(Clause, line_count(Line)),
     file_base_name(Path, File),
-    !,
     format(atom(Place), '~w:~d: ', [File, Line]).
-place_of(_, '').
 
 %   What has no place in an exercise: a simulation of its own.
 

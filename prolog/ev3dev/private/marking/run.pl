@@ -12,7 +12,7 @@
 :- use_module(record,
               [record_end/3, recorded/3, run_fact/1, with_record/4]).
 :- use_module(why, [collision_reason/1]).
-:- use_module('../batch/message_text', [message_text/2]).
+:- use_module('../errors/message_text', [message_text/2]).
 :- use_module('../batch/workplace', [end_workplace/1, new_workplace/2]).
 :- use_module('../../sim', [with_sim/3]).
 :- use_module('../../sim_fenced', [sim_fenced/3]).
