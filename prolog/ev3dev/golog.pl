@@ -51,7 +51,7 @@
 :- use_module(private/golog/values, [fluent_value/4]).
 :- use_module(private/golog/messages, []).
 :- use_module(private/golog/run,
-              [ recorded_history/1, run_online/4, situation_of_run/4,
+              [ recorded_history/1, run_online/5, situation_of_run/4,
                 state_of_run/3
               ]).
 :- use_module(private/golog/search, [found_path/4]).
@@ -61,7 +61,8 @@
               ]).
 :- use_module(private/golog/transitions,
               [is_final/3, program_shown/2, run/5, step/5]).
-:- use_module(private/golog/why_not, [hindrance/5]).
+:- use_module(private/golog/no_plan, [no_plan/4]).
+:- use_module(private/golog/why_not, [fluent_why/5, hindrance/5]).
 :- use_module(private/golog/world,
               [ ask/2, code_of_number/3, run_directly/4, send_exogenous/2 ]).
 
@@ -200,10 +201,10 @@ golog_in(M0, Program0, Options) :-
     settings(Options, M, Settings),
     retractall(input_ended),
     (   option(reason(Reason), Options)
-    ->  catch(run_online(M:Program, Settings, Reason0, History), Error,
+    ->  catch(run_online(M, Program, Settings, Reason0, History), Error,
               ended_by(Error, Reason0, History)),
         Result = given
-    ;   run_online(M:Program, Settings, Reason0, History),
+    ;   run_online(M, Program, Settings, Reason0, History),
         Reason = Reason0,
         Result = asked
     ),
@@ -498,7 +499,15 @@ now(History) :-
 %     - not_offered
 %       The program that remains does not begin with it.
 %
-%   Fails if nothing stands in its way.
+%   Fails if nothing stands in its way. Action may also be achieve(Goal): why
+%   is there no plan? Then Why is
+%
+%     - no_plan(Conditions, Missing)
+%       There is none for Conditions, parts of Goal, and one without each of
+%       them. Missing is a list of missing(Fact, Action): no action makes Fact
+%       true, which Action, or `goal`, needs.
+%     - gave_up(Limit)
+%       The planner found none within Limit.
 %
 %   @error instantiation_error if Action has variables
 
@@ -517,7 +526,21 @@ why_not(M:Action, Why) :-
     ;   E = [Action],
         situation([], S, X)
     ),
-    hindrance(Action, E, Why, S, X).
+    (   Action = achieve(Goal)
+    ->  no_plan(Goal, Why, S, X)
+    ;   hindrance(Action, E, Why, S, X)
+    ).
+
+:- multifile ev3dev_causes:explained/3.
+
+ev3dev_causes:explained(F, Why, golog(why(F, Why))) :-
+    state_of_run(M, _, S),
+    callable(F),
+    ground(F),
+    context(M, [], X),
+    recorded_history(History),
+    fluent_why(F, History, Why, S, X),
+    !.
 
 % ---------------- FOR DOMAINS
 

@@ -1,7 +1,7 @@
 :- module(ev3dev_journal,
           [ because/2,                  % :Goal, +Cause
             why/1,                      % +What
-            why/2,                      % +What, -Why
+            why/2,                      % +What, ?Why
             journal/1,                  % ?Journal
             journal_replay/1            % +File
           ]).
@@ -15,7 +15,7 @@
 :- use_module(private/files/directory, [readable_file/3, write_file/2]).
 :- use_module(private/explain/hints, [fail_because/1]).
 :- use_module(private/checks/arguments, [word/2]).
-:- use_module(private/journal/causes, [acting_for/2, causes/2]).
+:- use_module(private/journal/causes, [acting_for/2, causes/2, explained/3]).
 :- use_module(private/files/facts, [throw_located/3]).
 :- use_module(private/devices/robot_state, [robot/4, robot_description/1]).
 :- use_module(private/journal/journal_words, [why_words//3]).
@@ -77,12 +77,18 @@ plain_copy(Cause, Copy) :-
 %
 %   @error as why/2
 
-why(What0) :-
-    word(What0, What),
-    (   why_(What, Why, Last)
-    ->  stopped_with(What, Last, Ports),
-        print_message(help, ev3dev(why(What, Ports, Why)))
-    ;   print_message(help, ev3dev(why_nothing(What)))
+why(What) :-
+    why_at(What, inf).
+
+why_at(What0, Until) :-
+    (   explained(What0, _, Message)
+    ->  print_message(help, Message)
+    ;   word(What0, What),
+        (   why_(What, Until, Why, Last)
+        ->  stopped_with(What, Last, Ports),
+            print_message(help, ev3dev(why(What, Ports, Why)))
+        ;   print_message(help, ev3dev(why_nothing(What)))
+        )
     ).
 
 %   The motors that got the same stop as the Last one, in the same instant:
@@ -129,10 +135,10 @@ prolog:message(ev3dev(why(What, Ports, Why))) -->
 prolog:message(ev3dev(why_nothing(What))) -->
     [ '~w: no command is recorded'-[What] ].
 
-%!  why(+What, -Why) is semidet.
+%!  why(+What, ?Why) is semidet.
 %
-%   Why is the last command to What, a term `why(Time, Command, Causes)`. What
-%   is
+%   Why is the last command to What, a term `why(Time, Command, Causes)`. If
+%   it is at(Time), print the last one that was given until Time. What is
 %
 %     - a port or a light, such as `outB`
 %     - `robot`
@@ -141,6 +147,15 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %       The last stop of a motor, or end of a course.
 %     - `sound`
 %       A command to play or to say something.
+%     - rule(Name)
+%       of the behave/1 that runs, or the last one. Why is rule(What, Place),
+%       and What is `active`, false(Part) of its guard, above(Rule) that
+%       applies, cooldown(Seconds), `ended` as long as its guard has not been
+%       false again, or `applies`.
+%     - a fluent of the run of Golog in this thread, or of the last one
+%       Why is fluent(Value, By). By is initially(Place), or the last entry of
+%       the history that set it, entry(Number, Entry, Place). Place is
+%       File:Line of what says so, or `none`.
 %
 %   Time is that of ev3_time/1. Causes are those of because/2, the innermost
 %   first, and at last called(Name/Arity), the predicate that wrote the
@@ -188,25 +203,32 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %   @error type_error(atom, What)
 
 why(What0, Why) :-
-    word(What0, What),
-    why_(What, Why, _).
+    (   nonvar(Why),
+        Why = at(Until)
+    ->  must_be(number, Until),
+        why_at(What0, Until)
+    ;   explained(What0, Why0, _)
+    ->  Why = Why0
+    ;   word(What0, What),
+        why_(What, inf, Why, _)
+    ).
 
 %   Last is what Why is about, as done/5 has it.
 
-why_(stop, Why, Last) :-
+why_(stop, Until, Why, Last) :-
     !,
     Last = done(Time, What, Command0, Cause, Called),
-    once(( done(Time, What, Command0, Cause, Called),
+    once(( concerning(stop, Until, Last),
            is_stop(Command0) )),
     shown(Command0, Command, First),
     all_causes(First, Cause, Called, Causes),
     Why = why(Time, stop(What, Command), Causes).
-why_(What, Why, Last) :-
+why_(What, Until, Why, Last) :-
     Last = done(Time, Of, Command0, Cause, Called),
-    once(concerning(What, Last)),
+    once(concerning(What, Until, Last)),
     (   Command0 = ended(_, _),
         What \== robot,
-        once(( concerning(What, Before),
+        once(( concerning(What, Time, Before),
                Before = done(_, _, Commanded, _, _),
                Commanded \= ended(_, _) )),
         Commanded \= course(_, _)
@@ -223,8 +245,9 @@ why_(What, Why, Last) :-
 done(Time, What, Command, Cause, Called) :-
     journal_entry_(Time, What-Command, Cause, Called).
 
-concerning(What, done(Time, Of, Command, Cause, Called)) :-
+concerning(What, Until, done(Time, Of, Command, Cause, Called)) :-
     done(Time, Of, Command, Cause, Called),
+    Time =< Until,
     Command \= pose(_, _, _),
     is_about(What, Of).
 

@@ -25,6 +25,7 @@
               [must_be_options/3, number_value/3, option/2, option/3]).
 :- use_module(private/basics/small_lists, [append_lists/3, one_of/2]).
 :- use_module(private/journal/causes, [acting_for/2, begins/1]).
+:- use_module(private/journal/journal_words, [without_names/2]).
 :- use_module(private/devices/conditions, [condition_goal/2]).
 :- use_module(private/run/waits, [in_guard/2, leave/2, listening/3]).
 :- use_module(private/native/native,
@@ -288,7 +289,8 @@ behave(Rules0, Module:Options) :-
     inner(Behavior, Outer),
     setup_call_cleanup(true,
                        run(Behavior, Reason0),
-                       rest(Behavior, ended)),
+                       ( nb_setval(ev3dev_last_behavior, Behavior),
+                         rest(Behavior, ended) )),
     b_setval(ev3dev_behavior, Outer),
     option(reason(Reason), Options, _),
     Reason = Reason0.
@@ -494,9 +496,10 @@ failed(E, Name, Where, Behavior) :-
     (   E = error(Formal, _)
     ->  Behavior = behavior(settings: settings(on_error: OnError)),
         rule_place(Name, Behavior, Place),
-        format(atom(Text), 'in the ~w of rule ~p~w', [Where, Name, Place]),
+        place_text(Place, At),
+        format(atom(Text), 'in the ~w of rule ~p~w', [Where, Name, At]),
         (   Formal = permission_error(wait, guard, _),
-            Place == ''
+            Place == none
         ->  Named = E                   % which names the rule
         ;   error_within(E, Text, Named)
         ),
@@ -515,10 +518,14 @@ rule_place(Name, Behavior, Place) :-
         rule_clause(Rule, Clause),
         clause_property(Clause, file(File)),
         clause_property(Clause, line_count(Line))
-    ->  file_base_name(File, Base),
-        format(atom(Place), ' (~w:~w)', [Base, Line])
-    ;   Place = ''
+    ->  Place = File:Line
+    ;   Place = none
     ).
+
+place_text(none, '').
+place_text(File:Line, Text) :-
+    file_base_name(File, Base),
+    format(atom(Text), ' (~w:~w)', [Base, Line]).
 
 :- multifile prolog:message//1.
 
@@ -734,6 +741,77 @@ next(Behavior, Next) :-
         \+ guard(Name, Module:Condition, Behavior)
     ->  Next = []
     ).
+
+% ---------------- WHY
+
+%   why(rule(Name)) of library(ev3dev/journal), about the behave/1 that runs,
+%   or the last one
+
+:- multifile ev3dev_causes:explained/3.
+
+ev3dev_causes:explained(rule(Name), rule(Why, Place),
+                        ev3dev(why_rule(Name, Why, Place))) :-
+    (   nb_current(ev3dev_behavior, Behavior),
+        Behavior \== []
+    ->  true
+    ;   nb_current(ev3dev_last_behavior, Behavior)
+    ),
+    Behavior = behavior(rules: Rules),
+    arg(Index, Rules, Rule),
+    Rule = rule(name: Name),
+    !,
+    rule_place(Name, Behavior, Place),
+    Behavior = behavior(since: Since),
+    arg(Index, Since, From),
+    now_(Now),
+    (   active(Behavior, active(Index, _, _))
+    ->  Why = active
+    ;   number(From),
+        From > Now
+    ->  Left is From-Now,
+        Why = cooldown(Left)
+    ;   Rule = rule(guard: Guard),
+        false_part(Guard, Name, Part)
+    ->  Why = false(Part)
+    ;   nonvar(From),
+        From = ended(_)
+    ->  Why = ended
+    ;   Last is Index-1,
+        applies_within(Behavior, Rules, 1, Last, Above)
+    ->  Above = rule(name: Other),
+        Why = above(Other)
+    ;   Why = applies
+    ).
+
+false_part(M:Guard, Name, Part) :-
+    \+ in_guard(Name, M:Guard),
+    (   Guard = (A, B)
+    ->  (   in_guard(Name, M:A)
+        ->  false_part(M:B, Name, Part)
+        ;   false_part(M:A, Name, Part)
+        )
+    ;   Part = Guard
+    ).
+
+prolog:message(ev3dev(why_rule(Name, Why0, Place))) -->
+    { place_text(Place, At),
+      without_names(Why0, Why)
+    },
+    [ 'Rule ~p~w '-[Name, At] ],
+    rule_words(Why).
+
+rule_words(active) -->
+    [ 'is active'-[] ].
+rule_words(cooldown(Left)) -->
+    [ 'does not apply for ~2f s more: its cooldown'-[Left] ].
+rule_words(false(Part)) -->
+    [ 'does not apply: ~p is false'-[Part] ].
+rule_words(ended) -->
+    [ 'has done its action, and its guard has not been false since'-[] ].
+rule_words(above(Other)) -->
+    [ 'waits for rule ~p, which is above it and applies'-[Other] ].
+rule_words(applies) -->
+    [ 'applies'-[] ].
 
 % ---------------- STATE, MESSAGES
 

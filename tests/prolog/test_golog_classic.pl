@@ -1,6 +1,7 @@
 :- use_module('../support/simulation').
 :- use_module('../support/cases').
 :- use_module(library(plunit)).
+:- use_module(library(ev3dev/journal)).
 :- use_module(library(ev3dev/golog_classic), [situation_history/2]).
 
 :- op(960, xfy, #).
@@ -127,6 +128,10 @@ test(why_not_names_the_part_of_the_axiom,
     Why = not_possible([failure(_, _, Place)]),
     Place = File:_,
     file_base_name(File, Base).
+test(why_a_fluent_of_a_situation_has_its_value, By = entry(1, down(3), _)) :-
+    loaded(elevator),
+    with_sim(room, elevator:golog(down(3) : off(3), [])),
+    why(floor(4), fluent(false, By)).
 test(conditions, [all(Floor == [4])]) :-
     loaded(elevator),
     elevator:holds(floor(F) & -(-floor(4)) & -(waits(F) & true) & (-waits(F) v waits(9)) & (waits(9) => floor(F)), s0),

@@ -1,5 +1,6 @@
 :- use_module('../support/trees').
 :- use_module(library(ev3dev/golog)).
+:- use_module(library(ev3dev/journal)).
 :- use_module('../support/golog/lab').
 :- use_module('../support/golog/runs').
 :- use_module('../support/simulation').
@@ -511,6 +512,38 @@ test(it_is_said_in_words,
     ->  Said = true
     ;   Said = Line
     ).
+test(why_there_is_no_plan,
+     [ forall(member(Goal-Wanted,
+                     [ and(lamp(1), open)-no_plan([open],
+                                                  [missing(key, unlock)]),
+                       neg(dark)-no_plan([neg(dark)],
+                                         [missing(neg(dark), goal)]),
+                       both-no_plan([lamp(1), lamp(2)], []),
+                       lamp(2)-none ])),
+       true(Found == Wanted) ]) :-
+    with_domain([ rel_fluent(open), rel_fluent(key), rel_fluent(dark),
+                  (rel_fluent(lamp(N)) :- between(1, 2, N)),
+                  initially(dark, true), initially(_, false),
+                  prim_action(unlock), poss(unlock, key),
+                  causes_true(unlock, open, true),
+                  (prim_action(light(N)) :- between(1, 2, N)),
+                  poss(light(_), true), causes_true(light(N), lamp(N), true),
+                  causes_false(light(1), lamp(2), true),
+                  causes_false(light(2), lamp(1), true),
+                  proc(both, and([dark, lamp(1), lamp(2)])) ],
+                M, ( why_not(M:achieve(Goal), Found) -> true
+                   ; Found = none )).
+test(why_a_fluent_has_its_value,
+     Whys == [ fluent(2, entry(2, b, none)), fluent(true, initially(none)),
+               fluent(false, entry(3, a, none)), fluent(7, entry(4, e(s, 7),
+                                                                none)) ]) :-
+    with_domain([ prim_action(a), prim_action(b), poss(_, true),
+                  prim_fluent(n), initially(n, 0), prim_fluent(s),
+                  rel_fluent(p), initially(p, true), rel_fluent(q),
+                  initially(q, true), causes_val(b, n, N, N is n+1),
+                  causes_false(a, q, n > 1), senses(a, s), execute(_, 7) ],
+                M, golog(M:[b, b, a], [history(_)])),
+    findall(Why, ( member(F, [n, p, q, s]), why(F, Why) ), Whys).
 :- end_tests(golog_why_not).
 
 user:asks_why_not(A, E) :-

@@ -15,7 +15,7 @@ said(What, Line) :-
     setup_call_cleanup(
         asserta((user:message_hook(Term, help, Lines) :-
                      test_journal_note(Term, Lines)), Ref),
-        why(What),
+        ( What = Of-Time -> why(Of, at(Time)) ; why(What) ),
         erase(Ref)),
     retract(printed(Line)),
     !.
@@ -158,6 +158,10 @@ test(the_end_of_a_course_has_its_reason_and_its_cause,
 test(a_motor_that_was_commanded_on_the_way, true(Causes == [called(motor_run/2)])) :-
     in_room(( arc(30, 20), wait(0.5), motor_run(outB, 20), wait(0.5),
               why(outB, why(_, _, Causes)) )).
+test(at_a_time, true(Text == "outB runs at 20 %, since 0.00 s: first")) :-
+    with_sim(room, ( because(motor_run(outB, 20), first), wait(2),
+                     because(motor_run(outB, 40), second),
+                     said(outB-1.0, Text) )).
 test(the_robot_s_motor, true(Why = why(_, wheel(outC, tacho_motor(_, _)), _))) :-
     in_room(( go(20), why(robot, Why) )).
 test(the_last_stop,

@@ -418,4 +418,15 @@ test(an_unknown_option_of_a_rule, error(domain_error(rule_option, hurry(1)), _))
     behave([(r, hurry(1) :: true ~> true)]).
 test(an_unknown_option, error(domain_error(behave_option, hurry(1)), _)) :-
     behave([], [hurry(1)]).
+
+test(why_a_rule_does_not_apply, Whys == [ false(3 > 4), cooldown, active, above(c), ended,
+                                          false(fail) ]) :-
+    with_sim([], ( catch(behave([ (a :: X = 3, X > 4 ~> true), (e :: X = 3 ~> wait(0.1)),
+                                  ((b, cooldown(9)) :: true ~> wait(0.1)),
+                                  (c :: true ~> true), (d :: true ~> true),
+                                  (f :: fail, true ~> true) ], [timeout(1)]), _, true),
+                   findall(Why, ( member(R, [a, b, c, d, e, f]),
+                                  why(rule(R), rule(Why0, none)),
+                                  ( Why0 = cooldown(_) -> Why = cooldown ; Why = Why0 ) ),
+                           Whys) )).
 :- end_tests(wrong).

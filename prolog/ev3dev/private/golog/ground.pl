@@ -10,7 +10,8 @@
             possible_value/2,           % ?Fluent, ?Value
             asked_for/2,                % :Goal, -Functors
             is_relation/2,              % +Fluent, +Module
-            exclude/2                   % +Expression1, +Expression2
+            exclude/2,                  % +Expression1, +Expression2
+            conjunction/3               % +Condition, -Part1, -Part2
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(effects, [equations_for/4]).
@@ -280,6 +281,8 @@ must_be_ground(F) :-
 undecided(P) :-
     throw_error(domain_error(pddl_condition, P), _,
                 'PDDL cannot say that').
+
+%!  conjunction(+Condition, -Part1, -Part2) is semidet.
 
 conjunction(and(P, Q), P, Q).
 conjunction((P, Q), P, Q).

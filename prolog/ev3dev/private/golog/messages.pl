@@ -72,6 +72,9 @@ words(which_exogenous(Actions)) -->
     [ 'What has happened? One of ~p, or nil.'-[Actions] ].
 words(why_not(Action, Why)) -->
     hindrance(Why, Action).
+words(why(Fluent, fluent(Value, By))) -->
+    [ '~p is ~p'-[Fluent, Value] ],
+    set_by(By).
 words(report(_, Message)) -->
     message_words(Message).
 
@@ -140,16 +143,59 @@ hindrance(interrupt(Part, Values), Action) -->
     false_part(Part, Values).
 hindrance(not_offered, Action) -->
     [ '~p is possible, but the program does not go on with it'-[Action] ].
+hindrance(no_plan(Conditions, Missing), _) -->
+    [ 'There is no plan for ~p'-[First] ],
+    { Conditions = [First|Others] },
+    and(Others),
+    (   { Others == [] }
+    ->  []
+    ;   [ ' together; without one of them there is one'-[] ]
+    ),
+    missing(Missing).
+hindrance(gave_up(Limit), achieve(Goal)) -->
+    { Limit =.. [Name, Most] },
+    [ 'There may be a plan for ~p: the planner gave up after ~D ~w'-
+      [Goal, Most, Name] ].
+hindrance(nothing, achieve(Goal)) -->
+    !,
+    [ 'There is a plan for ~p'-[Goal] ].
 hindrance(nothing, Action) -->
     [ '~p comes next: nothing stands in its way'-[Action] ].
 
-failures([failure(Part, Values, Place)|Failures]) -->
-    false_part(Part, Values),
+set_by(initially(Place)) -->
+    [ ' as at the beginning'-[] ],
+    at_place('', Place).
+set_by(entry(Number, Entry, Place)) -->
+    { Entry = e(_, _) -> Event = 'it was sensed' ; Event = Entry },
+    [ ' since ~p, entry ~D of the history'-[Event, Number] ],
+    at_place('', Place).
+
+at_place(What, Place) -->
     (   { Place = File:Line }
     ->  { file_base_name(File, Base) },
-        [ ' (poss/2, ~w:~d)'-[Base, Line] ]
+        [ ' (~w~w:~d)'-[What, Base, Line] ]
     ;   []
+    ).
+
+and([]) -->
+    [].
+and([Condition|Conditions]) -->
+    [ ' and ~p'-[Condition] ],
+    and(Conditions).
+
+missing([]) -->
+    [].
+missing([missing(Fact, Action)|Missing]) -->
+    [ '; no action makes ~p true'-[Fact] ],
+    (   { Action == goal }
+    ->  []
+    ;   [ ', which ~p needs'-[Action] ]
     ),
+    missing(Missing).
+
+failures([failure(Part, Values, Place)|Failures]) -->
+    false_part(Part, Values),
+    at_place('poss/2, ', Place),
     (   { Failures == [] }
     ->  []
     ;   [ '; '-[] ],

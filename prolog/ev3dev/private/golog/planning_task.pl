@@ -2,6 +2,8 @@
           [ task/6,                     % +Module, +Goal, +Values, +Costs,
                                         % +Effort, -Task
             cost/4,                     % +Costs, +Action, +Module, -Cost
+            ground_problem/7,           % +Module, +Goal, +Values, +Effort,
+                                        % -Grounds, -Rules, -Condition
             task_plan/4                 % +Task, +Shortest, +Effort, -Plan
           ]).
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, put_assoc/4]).
@@ -35,20 +37,9 @@ task of planner_new_/3.
 %   1. Fails if the domain has conditions that it does not decide by itself, or
 %   if too many values are possible.
 
-task(M, Goal, Values, Costs, Effort, Task) :-
-    catch(ground_task(M, Goal, Values, Costs, Effort, Task),
-          error(Formal, Where),
-          ( member(Formal, [resource_error(_), domain_error(action_cost, _)]),
-            throw(error(Formal, Where)) )).
-
-ground_task(M, Goal, Values, Costs, Effort,
-            task(Actions, task(N, Initial, Natives, Rules, NumberedGoal))) :-
-    \+ has_possible_values(M),
-    \+ has_clauses(M, forget(_, _)),
-    \+ ( member(F-V, Values), is_relation(F, M), V \== true, V \== false ),
-    findall(F-V, ( member(F-V, Values), \+ is_relation(F, M) ), Pairs),
-    with_values_of(Pairs, ground_domain(M, Goal, Effort, Grounds, GroundRules,
-                                        Condition)),
+task(M, Goal, Values, Costs, Effort,
+     task(Actions, task(N, Initial, Natives, Rules, NumberedGoal))) :-
+    ground_problem(M, Goal, Values, Effort, Grounds, GroundRules, Condition),
     findall(A, member(ground(A, _, _), Grounds), Names),
     compound_name_arguments(Actions, actions, Names),
     empty_assoc(None),
@@ -60,6 +51,22 @@ ground_task(M, Goal, Values, Costs, Effort,
               ( is_relation(F, M) -> V == true, Fact = F ; Fact = (F = V) ),
               get_assoc(Fact, Numbers, Number) ),
             Initial).
+
+%!  ground_problem(+Module, +Goal, +Values, +Effort, -Grounds, -Rules,
+%!                 -Condition) is semidet.
+%
+%   As task/6, before facts become numbers: Grounds is a list of
+%   ground(Action, If, Effects), and an effect is effect(Truth, Fact, If).
+
+ground_problem(M, Goal, Values, Effort, Grounds, Rules, Condition) :-
+    \+ has_possible_values(M),
+    \+ has_clauses(M, forget(_, _)),
+    \+ ( member(F-V, Values), is_relation(F, M), V \== true, V \== false ),
+    findall(F-V, ( member(F-V, Values), \+ is_relation(F, M) ), Pairs),
+    catch(with_values_of(Pairs, ground_domain(M, Goal, Effort, Grounds, Rules,
+                                              Condition)),
+          error(Formal, Where),
+          ( Formal = resource_error(_), throw(error(Formal, Where)) )).
 
 ground_domain(M, Goal, Effort, Grounds, Rules, Condition) :-
     ground_actions(M, As),

@@ -1,6 +1,6 @@
 :- module(ev3dev_golog_run,
-          [ run_online/4,               % :Program, +Settings, -Reason,
-                                        % -History
+          [ run_online/5,               % +Module, +Program, +Settings,
+                                        % -Reason, -History
             recorded_history/1,         % -History
             situation_of_run/4,         % +History, +Module, -Situation,
                                         % +Context
@@ -51,14 +51,12 @@ its action executed. Settings are
 run_settings(Words, Trace, OnFailed, Device, Limit, Timeout, Initial, Keep).
 */
 
-%!  run_online(:Program, +Settings, -Reason, -History) is det.
+%!  run_online(+Module, +Program, +Settings, -Reason, -History) is det.
 %
 %   Run Program. Reason says why the run ended. Exceptions are passed on, the
 %   motors stopped and finalize/0 called.
 
-:- meta_predicate run_online(:, +, -, -).
-
-run_online(M:E, Settings, Reason, History) :-
+run_online(M, E, Settings, Reason, History) :-
     Settings = run_settings(words: Words, device: Device, timeout: Timeout,
                             initial: Initial, keep: Keep),
     prepare(M),

@@ -8,6 +8,7 @@
             was_done/2,                 % ?Action, +Situation
             all_open/3,                 % +Fluents, +Situation0, -Situation
             assumed/3,                  % +Case, +Situation0, -Situation
+            set_by/3,                   % +Fluent, +Situation, -Count
             is_assumed/3                % +Condition, +Situation, -Truth
           ]).
 :- use_module('../basics/fields',
@@ -122,6 +123,14 @@ assumed(Case, situation(H, C, Values0, Open, Done),
     ;   Case = holds(P, Truth),
         put_assoc('$assumed'(P), Values0, v(C, Truth), Values)
     ).
+
+%!  set_by(+Fluent, +Situation, -Count) is semidet.
+%
+%   The Entry with the number Count of the history was the last to set Fluent.
+
+set_by(F, Situation, C) :-
+    Situation = situation(values: Values),
+    get_assoc(F, Values, v(C, _)).
 
 %!  is_assumed(+Condition, +Situation, -Truth) is semidet.
 %

@@ -14,12 +14,14 @@
             is_set_by_exogenous/2,      % +Fluent, +Module
             program_in/4,               % +Module0, +Program0, -Module,
                                         % -Program
+            restored/3,                 % ?Restore, ?Condition, ?Body
             precondition/3,             % +Action, -Condition, +Module
             located_precondition/4,     % +Action, -Condition, -Place, +Module
             proc_body/3,                % +Call, -Body, +Module
             initial_value/3,            % +Fluent, -Value, +Module
             located/3,                  % +Module, +What, -Place
             proc_place/4,               % +Proc, +Term, +Module, -Place
+            clause_place/2,             % +Ref, -Place
             domain_list/3               % +Sort, +Module, -Values
           ]).
 :- use_module(library(lists), [append/3, member/2]).
@@ -381,6 +383,10 @@ proc_body(Call, Body, Module) :-
     has_clauses(Module, Restore),
     call(Module:Restore).
 
+%!  restored(?Restore, ?Condition, ?Body) is nondet.
+%
+%   Restore is what a domain with situations says: Condition stands for Body.
+
 restored(restoreSitArg(P, '$VAR'('S'), Body), P, Body).
 restored(restore_situation(P, '$VAR'('S'), Body), P, Body).
 
@@ -598,19 +604,16 @@ short(Head, Short) :-
     ;   Short = Head
     ).
 
+%!  clause_place(+Ref, -Place) is det.
+%
+%   Place is File:Line of a clause that was read from a file, else `none`.
+
 clause_place(Ref, Place) :-
-    (   clause_location(Ref, Place0)
-    ->  Place = Place0
+    (   clause_property(Ref, file(File)),
+        clause_property(Ref, line_count(Line))
+    ->  Place = File:Line
     ;   Place = none
     ).
-
-%!  clause_location(+Ref, -Place) is semidet.
-%
-%   Place is File:Line of a clause that was read from a file.
-
-clause_location(Ref, File:Line) :-
-    clause_property(Ref, file(File)),
-    clause_property(Ref, line_count(Line)).
 
 %!  proc_place(+Proc, +Term, +Module, -Place) is det.
 %

@@ -1,21 +1,27 @@
 :- module(ev3dev_golog_why_not,
-          [ hindrance/5                 % +Action, +Program, -Why, +Situation,
+          [ hindrance/5,                % +Action, +Program, -Why, +Situation,
+                                        % +Context
+            fluent_why/5                % +Fluent, +History, -Why, +Situation,
                                         % +Context
           ]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(context,
               [context_module/2, in_mode/3, recorded_step/3, recording/4]).
 :- use_module(branches, [fluent_in/4]).
 :- use_module(conditions, [holds/3]).
-:- use_module(situation, [situation_count/2, situation_history/2]).
-:- use_module(values, [fluent_value/4]).
+:- use_module(ground, [conjunction/3]).
+:- use_module(progression, [situation/3]).
+:- use_module(situation, [set_by/3, situation_count/2, situation_history/2]).
+:- use_module(values, [evaluated_arguments/4, fluent_value/4, value/5]).
 :- use_module(programs, [fresh/4, in_books/2, parts/5]).
 :- use_module(theory,
-              [ is_kind/3, located_precondition/4, precondition/3, proc_body/3
+              [ clause_place/2, has_clauses/2, is_fluent/2, is_kind/3,
+                located_precondition/4, precondition/3, proc_body/3,
+                restored/3
               ]).
 :- use_module(transitions, [step/5]).
 
-/** <module> Why an action is not done
+/** <module> Why an action is not done, and why a fluent has its value
 */
 
 %!  hindrance(+Action, +Program, -Why, +Situation, +Context) is semidet.
@@ -50,16 +56,13 @@ failure(A, failure(Part, Values, Place), S, X, M) :-
 
 false_part(P, Part, S, X) :-
     (   nonvar(P),
-        ( P = and(Q, R) ; P = (Q, R) )
+        conjunction(P, Q, R)
     ->  (   \+ holds(Q, S, X)
         ->  false_part(Q, Part, S, X)
         ;   \+ ( holds(Q, S, X), holds(R, S, X) ),
             once(holds(Q, S, X)),
             false_part(R, Part, S, X)
         )
-    ;   nonvar(P),
-        P = and([Q|Qs])
-    ->  false_part(and(Q, and(Qs)), Part, S, X)
     ;   nonvar(P),
         in_books(P, Q)
     ->  false_part(Q, Part, S, X)
@@ -166,3 +169,83 @@ interrupt_in(E, Vs, P, Body) :-
         member(Part, Parts),
         interrupt_in(Part, Vs, P, Body)
     ).
+
+%!  fluent_why(+Fluent, +History, -Why, +Situation, +Context) is semidet.
+%
+%   Why is as why/2 of library(ev3dev/journal) says. History has the newest
+%   entries of Situation. In a domain with situations, Fluent is a condition.
+
+fluent_why(F, History, fluent(V, By), S, X0) :-
+    in_mode(stored, X0, X),
+    context_module(X, M),
+    situation_count(S, Count),
+    (   is_kind(fluent, F, M)
+    ->  is_fluent(F, M),
+        value(F, V, S, X, M),
+        (   set_by(F, S, C)
+        ->  true
+        ;   C = 0
+        )
+    ;   restored(Restore, F, _),
+        has_clauses(M, Restore),
+        \+ \+ M:Restore,
+        truth(F, V, S, X),
+        changed(F, V, History, Count, C, X)
+    ),
+    (   C =:= 0
+    ->  By = initially(Place),
+        ( is_said(initially(F, V), M, Place) -> true ; Place = none )
+    ;   Skip is Count-C,
+        length(Newer, Skip),
+        append(Newer, [Entry|Before], History)
+    ->  By = entry(C, Entry, Place),
+        (   by_clause(Entry, F, V, Before, X, M, Place)
+        ->  true
+        ;   Place = none
+        )
+    ;   By = entry(C, unknown, none)
+    ).
+
+truth(P, Truth, S, X) :-
+    ( holds(P, S, X) -> Truth = true ; Truth = false ).
+
+%   The last entry after which the truth of P was another one than before
+
+changed(P, V, History, Count, C, X) :-
+    (   History = [_|Before],
+        situation(Before, S, X),
+        truth(P, V, S, X)
+    ->  Count1 is Count-1,
+        changed(P, V, Before, Count1, C, X)
+    ;   History == []
+    ->  C = 0
+    ;   C = Count
+    ).
+
+by_clause(Entry, F, V, Before, X, M, Place) :-
+    (   V == true,
+        Head = causes_true(Entry, F, P)
+    ;   V == false,
+        Head = causes_false(Entry, F, P)
+    ;   Head = causes_val(Entry, F, V, P)
+    ;   Head = causes(Entry, F, V, P)
+    ;   Entry = e(A, Outcome),
+        Head = senses(A, Outcome, F, V, P)
+    ),
+    situation(Before, S, X),
+    is_said(Head, M, Place),
+    \+ \+ holds(P, S, X),
+    !.
+by_clause(Entry, F, true, Before, X, M, Place) :-
+    restored(Restore, F, Body),
+    has_clauses(M, Restore),
+    call(M:Restore),
+    situation([Entry|Before], S, X),
+    evaluated_arguments(Body, Goal, S, X),
+    is_said(Goal, M, Place).
+
+is_said(Head, M, Place) :-
+    has_clauses(M, Head),
+    clause(M:Head, Body, Ref),
+    \+ \+ call(M:Body),
+    clause_place(Ref, Place).

@@ -4,7 +4,8 @@
             follow/1,                   % +Closure
             follow_no_more/0,
             causes/2,                   % +Number, -Causes
-            active_clause/1             % -Clause
+            active_clause/1,            % -Clause
+            explained/3                 % +What, -Why, -Message
           ]).
 :- use_module('../errors/errors', [in_own_name/1]).
 :- use_module('../native/native', [cause_/2, cause_active_/1]).
@@ -66,6 +67,14 @@ begins(Cause) :-
 %   its frames. A library that knows adds a clause.
 
 :- multifile active_clause/1.
+
+%!  explained(+What, -Why, -Message) is semidet.
+%
+%   Why is what why/2 answers about What, which is no device; Message says it
+%   in words. A library that knows adds a clause.
+
+:- multifile explained/3.
+:- dynamic explained/3.
 
 note(Number, Former, Cause) :-
     in_own_name(assertz(cause(Number, Former, Cause))),  % none that is cyclic

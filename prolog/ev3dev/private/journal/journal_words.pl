@@ -1,5 +1,6 @@
 :- module(ev3dev_journal_words,
           [ why_words//3,               % +Why, +What, +Ports
+            without_names/2,            % +Term0, -Term
             command_words//2,           % +Command, +What
             cause_words//1              % +Cause
           ]).
@@ -30,7 +31,9 @@ why_words(why(Time, Command0, Causes0), What, Ports) -->
 when(since, ', since').
 when(at, ' at').
 
-%   A variable is written as _.
+%!  without_names(+Term0, -Term) is det.
+%
+%   A variable of Term is written as _.
 
 without_names(Causes0, Causes) :-
     copy_term(Causes0, Causes),
