@@ -64,7 +64,7 @@ pub(crate) fn facts(state: &[Word]) -> impl Iterator<Item = usize> {
 }
 
 /// All literals hold, and of each list of alternatives one.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Condition {
     /// Sorted, none twice.
     pub(crate) literals: Vec<Literal>,
@@ -289,20 +289,16 @@ fn asked(task: &Task) -> Result<Vec<Word>, Fault> {
 
 fn operators(task: &Task, asked: &[Word]) -> Vec<Operator> {
     let operator = |(action, of): (usize, &crate::task::Action)| {
-        let mut changes: BTreeMap<_, Change> = BTreeMap::new();
+        let mut changes: BTreeMap<Condition, [Vec<usize>; 2]> = BTreeMap::new();
         for effect in of.effects.iter().filter(|effect| has(asked, effect.fact)) {
             let Some(condition) = Condition::new(&effect.condition, true) else { continue };
-            let key = format!("{condition:?}");
-            let change = changes.entry(key).or_insert_with(|| Change {
-                condition,
-                adds: vec![],
-                deletes: vec![],
-            });
-            let facts = if effect.value { &mut change.adds } else { &mut change.deletes };
-            facts.push(effect.fact);
+            changes.entry(condition).or_default()[usize::from(effect.value)].push(effect.fact);
         }
         let condition = Condition::new(&of.condition, true)?;
-        let changes: Vec<_> = changes.into_values().collect();
+        let changes = changes.into_iter();
+        let changes: Vec<_> = changes
+            .map(|(condition, [deletes, adds])| Change { condition, adds, deletes })
+            .collect();
         (!changes.is_empty()).then_some(Operator { action, condition, changes, cost: of.cost })
     };
     task.actions.iter().enumerate().filter_map(operator).collect()

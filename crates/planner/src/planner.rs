@@ -1,4 +1,5 @@
 //! The searches together.
+use crate::compiled::Compiled;
 use crate::greedy::Greedy;
 use crate::novelty::Novelty;
 use crate::problem::Problem;
@@ -39,7 +40,17 @@ pub enum Progress {
 pub struct Planner {
     problem: Problem,
     search: Search,
+    found: Option<Found>,
     bytes: usize,
+}
+
+/// A plan of which each action is left out to see whether it is needed.
+#[derive(Debug)]
+struct Found {
+    plan: Vec<u32>,
+    /// All before it are needed.
+    at: usize,
+    work: u64,
 }
 
 #[derive(Debug)]
@@ -62,7 +73,7 @@ impl Planner {
             let novelty = Novelty::new(&problem, limits.bytes / 4);
             Search::Any(Box::new(Greedy::new(&problem)), Some(Box::new(novelty)))
         };
-        Ok(Planner { problem, search, bytes: limits.bytes })
+        Ok(Planner { problem, search, found: None, bytes: limits.bytes })
     }
 
     /// Goes on for about this number of steps of computation. A computer does some hundred million
@@ -77,10 +88,12 @@ impl Planner {
         let end = self.worked() + steps;
         while self.worked() < end {
             match self.step() {
+                Step::Plan(plan) if self.found.is_none() && !self.is_cheapest() => {
+                    self.found = Some(Found { plan, at: 0, work: 0 });
+                }
                 Step::Plan(plan) => {
-                    let plan = self.without_needless(plan);
-                    let action =
-                        |&operator: &u32| self.problem.task.operators[operator as usize].action;
+                    let operators = &self.problem.task.operators;
+                    let action = |&operator: &u32| operators[operator as usize].action;
                     return Progress::Plan(plan.iter().map(action).collect());
                 }
                 Step::Exhausted => return Progress::NoPlan,
@@ -101,7 +114,14 @@ impl Planner {
         }
     }
 
+    fn is_cheapest(&self) -> bool {
+        matches!(self.search, Search::Cheapest(_))
+    }
+
     fn step(&mut self) -> Step {
+        if let Some(found) = &mut self.found {
+            return found.step(&self.problem.task);
+        }
         match &mut self.search {
             Search::Any(greedy, Some(novelty)) if novelty.work() < greedy.work() => {
                 novelty.step(&self.problem)
@@ -112,12 +132,13 @@ impl Planner {
     }
 
     fn worked(&self) -> u64 {
-        match &self.search {
+        let search = match &self.search {
             Search::Any(greedy, novelty) => {
                 greedy.work() + novelty.as_ref().map_or(0, |novelty| novelty.work())
             }
             Search::Cheapest(shortest) => shortest.work(),
-        }
+        };
+        search + self.found.as_ref().map_or(0, |found| found.work)
     }
 
     fn within_memory(&mut self) -> bool {
@@ -130,36 +151,32 @@ impl Planner {
             Search::Cheapest(shortest) => shortest.bytes() < self.bytes,
         }
     }
+}
 
-    /// A plan of any kind without the actions that it does not need.
-    fn without_needless(&self, mut plan: Vec<u32>) -> Vec<u32> {
-        if matches!(self.search, Search::Cheapest(_)) {
-            return plan;
+impl Found {
+    /// Leaves out the next action and those that are not possible then, if the plan still reaches
+    /// the goal.
+    fn step(&mut self, task: &Compiled) -> Step {
+        if self.at == self.plan.len() {
+            return Step::Plan(std::mem::take(&mut self.plan));
         }
-        let mut at = 0;
-        while at < plan.len() {
-            match self.without(&plan, at) {
-                Some(shorter) => plan = shorter,
-                None => at += 1,
-            }
-        }
-        plan
-    }
-
-    /// A plan without the action at an index and those that are not possible then, if it still
-    /// reaches the goal.
-    fn without(&self, plan: &[u32], at: usize) -> Option<Vec<u32>> {
-        let mut state = self.problem.task.initial.clone();
+        let mut state = task.initial.clone();
         let mut next = state.clone();
         let mut rest = Vec::new();
-        for (index, &operator) in plan.iter().enumerate() {
-            let possible = self.problem.task.operators[operator as usize].condition.holds(&state);
-            if index != at && possible {
-                self.problem.task.apply(operator as usize, &state, &mut next);
+        for (index, &operator) in self.plan.iter().enumerate() {
+            let possible = task.operators[operator as usize].condition.holds(&state);
+            if index != self.at && possible {
+                task.apply(operator as usize, &state, &mut next);
                 std::mem::swap(&mut state, &mut next);
                 rest.push(operator);
             }
         }
-        self.problem.task.reaches_goal(&state).then_some(rest)
+        self.work += (self.plan.len() * (state.len() + 8)) as u64;
+        if task.reaches_goal(&state) {
+            self.plan = rest;
+        } else {
+            self.at += 1;
+        }
+        Step::Open
     }
 }

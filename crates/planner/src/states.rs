@@ -6,7 +6,8 @@ use hashbrown::HashTable;
 pub(crate) struct States {
     words: usize,
     bits: Vec<Word>,
-    table: HashTable<u32>,
+    /// The hash and the number of each: so the table grows without a look at the states.
+    table: HashTable<(u32, u32)>,
 }
 
 impl States {
@@ -20,21 +21,21 @@ impl States {
 
     /// The number of a state, and whether it is new. Numbers count from 0.
     pub(crate) fn insert(&mut self, state: &[Word]) -> (u32, bool) {
-        let (bits, words) = (&self.bits, self.words);
-        let found = self.table.find(hash(state), |&known| slice(bits, words, known) == state);
-        if let Some(&known) = found {
+        let (bits, words, hash) = (&self.bits, self.words, hash(state));
+        let is_same =
+            |&(other, known): &(u32, u32)| other == hash && slice(bits, words, known) == state;
+        if let Some(&(_, known)) = self.table.find(spread(hash), is_same) {
             return (known, false);
         }
         let new = index(self.table.len());
         self.bits.extend_from_slice(state);
-        let bits = &self.bits;
-        self.table.insert_unique(hash(state), new, |&known| hash(slice(bits, words, known)));
+        self.table.insert_unique(spread(hash), (hash, new), |&(hash, _)| spread(hash));
         (new, true)
     }
 
     /// The bytes that they take.
     pub(crate) fn bytes(&self) -> usize {
-        8 * self.bits.capacity() + 5 * self.table.capacity()
+        8 * self.bits.capacity() + 9 * self.table.capacity()
     }
 }
 
@@ -43,11 +44,16 @@ fn slice(bits: &[Word], words: usize, state: u32) -> &[Word] {
 }
 
 /// The hash of Firefox and rustc: fast, and the same everywhere.
-fn hash(state: &[Word]) -> u64 {
+fn hash(state: &[Word]) -> u32 {
     let hash = state.iter().fold(0_u64, |hash, &word| {
         (hash.rotate_left(5) ^ word).wrapping_mul(0x517c_c1b7_2722_0a95)
     });
-    hash ^ hash >> 32
+    (hash >> 32) as u32
+}
+
+/// The table looks at the highest bits and at the lowest.
+fn spread(hash: u32) -> u64 {
+    u64::from(hash).wrapping_mul(0x9e37_79b9_7f4a_7c15)
 }
 
 /// The states that a search has seen, and how it has come to each.
