@@ -33,9 +33,9 @@ task of planner_new_/3.
 %!  task(+Module, +Goal, +Values, +Costs, +Effort, -Task) is semidet.
 %
 %   Task is to reach the condition Goal from Values, a list of Fluent-Value.
-%   If Costs is true, actions have the costs of action_cost/2, else each costs
-%   1. Fails if the domain has conditions that it does not decide by itself, or
-%   if too many values are possible.
+%   If Costs is true, actions have the costs of action_cost/2, else each
+%   costs 1. Fails if the domain has conditions that it does not decide by
+%   itself, or if too many values are possible.
 
 task(M, Goal, Values, Costs, Effort,
      task(Actions, task(N, Initial, Natives, Rules, NumberedGoal))) :-
