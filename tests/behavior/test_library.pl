@@ -50,6 +50,16 @@ test(each_library_loads_alone,
        true(Status-Output == exit(0)-"") ]) :-
     format(string(Program), ":- use_module(library(ev3dev/~w)).", [Layer]),
     run_program(Program, [], Status, Output).
+%   What is compiled is not read with pldoc_collecting.
+test(sources_load_in_silence_whatever_the_flags,
+     [ forall(member(Flag, [iso, optimise])),
+       true(Status-Output == exit(0)-"") ]) :-
+    findall(Text, ( public_library(Library), Library \== ev3dev,
+                    format(string(Text), ":- use_module(library(ev3dev/~w), []).\n", [Library]) ),
+            Texts),
+    atomics_to_string([":- create_prolog_flag(pldoc_collecting, true, []).
+                        :- set_prolog_flag(", Flag, ", true).\n"|Texts], Program),
+    run_program(Program, [], Status, Output).
 % The simulator is not a directory.
 test(takes_the_tree_from_the_environment,
      [ forall(of_files(Tree)), true(Status-Output == exit(0)-"[outA,outB,outC,outD]") ]) :-

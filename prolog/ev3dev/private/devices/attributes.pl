@@ -18,23 +18,23 @@
 /** <module> Attributes of devices of any class
 */
 
+%!  goal_expansion(+Goal, -Body) is semidet.
+%
+%   A module that imports this has the body of attribute/4 in the place of its
+%   calls, and so has attribute/4. A call takes as long as reading a file.
+
+goal_expansion(attribute(Class, Port, Attribute, Value),
+               (   var(Value)
+               ->  attribute_(Class, Port, Attribute, Value)
+               ;   attribute_write_(Class, Port, Attribute, Value)
+               )).
+
 %!  attribute(+Class, ?Port, +Attribute, ?Value) is nondet.
 %
 %   Read an attribute, or write it if Value is bound.
 
 attribute(Class, Port, Attribute, Value) :-
-    (   var(Value)
-    ->  attribute_(Class, Port, Attribute, Value)
-    ;   attribute_write_(Class, Port, Attribute, Value)
-    ).
-
-%!  goal_expansion(+Goal, -Body) is semidet.
-%
-%   A module that imports this has the clause of attribute/4 in the place of
-%   its calls. A call takes as long as reading a file.
-
-goal_expansion(attribute(Class, Port, Attribute, Value), Body) :-
-    clause(attribute(Class, Port, Attribute, Value), Body).
+    attribute(Class, Port, Attribute, Value).
 
 %!  attribute_words(+Class, ?Port, +Attribute, -Words) is nondet.
 %

@@ -34,9 +34,9 @@ read_exercise(File, exercise(Module, Name, Options, Scores)) :-
     Module:discontiguous([score/2, score/3]),
     % When it is read again, that declaration is forgotten.
     setup_call_cleanup(
-        style_check(-discontiguous),
+        style_check(-(discontiguous)),
         in_own_name(load_files(Module:File, [if(true), silent(true)])),
-        style_check(+discontiguous)),
+        style_check(+(discontiguous))),
     findall(Found-Its,
             ( current_predicate(Module:exercise/2),
               call(Module:exercise(Found, Its)) ),
