@@ -50,7 +50,7 @@ says(a_list_without_end,
 says(a_misspelt_predicate_in_a_rule,
      [ "start :- robot, behave([avoid]).",
        "avoid :: us_dist_cm(in1, Cm), Cm > 3 ~> tun(20)." ],
-     "mine.pl:4: there is no tun/1, in the action of rule avoid. Did you mean: turn(Speed)*").
+     "there is no tun/1, in the action of rule avoid (mine.pl:4). Did you mean: turn(Speed)*").
 says(a_space_before_a_parenthesis,
      [ "start :- robot,",
        "    go_cm (20, 20)." ],

@@ -78,37 +78,32 @@ why(Format, Arguments) :-
 said(true, Goal) :-
     timeless(Goal).
 said(false, Goal) :-
-    said_by('', ev3dev(failed(Goal))),
+    said_by(ev3dev(failed(Goal))),
     timeless(Goal).
 said(thrown(Ball), Goal) :-
     (   Ball == ev3dev_time_is_over
     ->  timeless(Goal),
         forall(endless(Text), why('~w', [Text]))
-    ;   (   in_rule(Ball, Place)
+    ;   (   of_rule(Ball)
         ->  nb_setval(ev3dev_last_goal, [])
-        ;   Place = ''
+        ;   true
         ),
-        said_by(Place, ev3dev(thrown(Ball)))
+        said_by(ev3dev(thrown(Ball)))
     ).
 
-%   The line of the rule whose guard or action is to blame.
+%   The message names the rule whose guard or action is to blame.
 
-in_rule(error(_, Context), Place) :-
+of_rule(error(_, Context)) :-
     nonvar(Context),
     Context = context(_, Text),
     atom(Text),
-    sub_atom(Text, _, _, 0, Text1),
-    atom_concat('rule ', Text2, Text1),
-    atomic_list_concat([Rule|_], ';', Text2),
-    Head = '$ev3dev rule'(Rule, _, _, _),
-    catch(clause(user:Head, true, Clause), error(_, _), fail),
-    !,
-    clause_place(Clause, Place).
+    sub_atom(Text, _, _, _, ' of rule '),
+    !.
 
-said_by(Place, Message) :-
+said_by(Message) :-
     message_text(Message, Text),
     normalize_space(atom(Line), Text),
-    why('~w~w', [Place, Line]).
+    why('~w', [Line]).
 
 % ---------------- NO SUCH GOAL
 

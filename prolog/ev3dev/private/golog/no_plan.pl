@@ -14,8 +14,8 @@
 /** <module> Why there is no plan
 
 The planner says which conditions of the goal have no plan together. Then
-actions are tried that make no condition false again: what even these do not
-reach, no plan reaches.
+actions are tried that make nothing false, and each negation holds: what even
+these do not reach, no plan reaches.
 */
 
 %!  no_plan(+Goal, -Why, +Situation, +Context) is semidet.
@@ -78,105 +78,75 @@ missing(Ps, Missing, S, X, M) :-
     ->  findall(ground(F, If, [effect(true, F, true)]),
                 member(rule(F, If), Rules), Derived),
         append(Derived, Grounds0, Grounds),
-        empty_assoc(None),
-        findall(Known,
+        findall(Fact,
                 ( member(F-V, Values),
-                  ( V == true -> Fact = F ; Fact = (F = V) ),
-                  ( Known = Fact ; Known = was(Fact) ) ),
-                Knowns),
-        all_put(Knowns, None, K0),
-        reached(Grounds, K0, K),
-        findall(L-goal, lacking(Goal, K, L), Todo),
+                  ( V == true -> Fact = F ; Fact = (F = V) ) ),
+                Facts),
+        empty_assoc(None),
+        reached([true|Facts], Grounds, None, K),
+        findall(Fact-goal, lacking(Goal, K, Fact), Todo),
         roots(Todo, [], Grounds, K, Missing0),
         sort(Missing0, Missing)
     ;   Missing = []
     ).
 
-all_put([], K, K).
-all_put([L|Ls], K0, K) :-
-    put_assoc(L, K0, true, K1),
-    all_put(Ls, K1, K).
-
-reached(Grounds, K0, K) :-
-    findall(L,
+reached([], _, K, K).
+reached([Fact0|Facts0], Grounds, K0, K) :-
+    all_put([Fact0|Facts0], K0, K1),
+    findall(Fact,
             ( member(ground(_, If, Effects), Grounds),
-              possible(If, K0),
-              member(Effect, Effects),
-              makes(Effect, L, If1),
-              \+ get_assoc(L, K0, _),
-              possible(If1, K0) ),
-            Ls),
-    (   Ls == []
-    ->  K = K0
-    ;   all_put(Ls, K0, K1),
-        reached(Grounds, K1, K)
-    ).
+              possible(If, K1),
+              member(effect(true, Fact, If1), Effects),
+              \+ get_assoc(Fact, K1, _),
+              possible(If1, K1) ),
+            Facts),
+    reached(Facts, Grounds, K1, K).
 
-makes(effect(Truth, Fact, If), L, If) :-
-    ( Truth == true -> L = Fact ; L = [not, Fact] ).
+all_put([], K, K).
+all_put([Fact|Facts], K0, K) :-
+    put_assoc(Fact, K0, true, K1),
+    all_put(Facts, K1, K).
 
 possible(E, K) :-
-    (   E = [and|Es]
-    ->  \+ ( member(Part, Es), \+ possible(Part, K) )
-    ;   E = [or|Es]
-    ->  member(Part, Es),
-        possible(Part, K)
-    ;   E = [not, F],
-        negation(F, N),
-        N \== E
-    ->  possible(N, K)
-    ;   E = [not, F]
-    ->  ( get_assoc(E, K, _) ; \+ get_assoc(was(F), K, _) )
-    ;   E == true
-    ->  true
+    (   E = [Word|Es]
+    ->  (   Word == and
+        ->  \+ ( member(Part, Es), \+ possible(Part, K) )
+        ;   Word == not
+        ->  true
+        ;   member(Part, Es),
+            possible(Part, K)
+        ->  true
+        )
     ;   get_assoc(E, K, _)
-    ),
-    !.
-
-negation(E, N) :-
-    (   E = [not, N]
-    ->  true
-    ;   E = [Word|Es]
-    ->  ( Word == and -> Other = or ; Other = and ),
-        N = [Other|Ns],
-        findall([not, Part], member(Part, Es), Ns)
-    ;   N = [not, E]
     ).
 
-%   L is a part of the Expression that is not reached.
+%   lacking(+Expression, +Known, -Fact) is nondet: Fact is not reached.
 
-lacking(E, K, L) :-
+lacking(E, K, Fact) :-
     \+ possible(E, K),
-    (   E = [Word|Es],
-        Word \== not
+    (   E = [_|Es]
     ->  member(Part, Es),
-        lacking(Part, K, L)
-    ;   E = [not, F],
-        negation(F, N),
-        N \== E
-    ->  lacking(N, K, L)
+        lacking(Part, K, Fact)
     ;   E \== false,
-        L = E
+        Fact = E
     ).
 
 %   What no action makes true at all is to blame for the others.
 
 roots([], _, _, _, []).
-roots([L-By|Todo0], Seen, Grounds, K, Missing) :-
-    (   memberchk(L, Seen)
-    ->  Missing = Missing1,
-        Todo = Todo0
-    ;   findall(L1-A,
-                ( member(ground(A, If, Effects), Grounds),
-                  member(Effect, Effects),
-                  makes(Effect, L, If1),
-                  ( lacking(If, K, L1) ; lacking(If1, K, L1) ) ),
-                Needs),
+roots([Fact-By|Todo0], Seen, Grounds, K, Missing) :-
+    findall(Need-A,
+            ( member(ground(A, If, Effects), Grounds),
+              member(effect(true, Fact, If1), Effects),
+              ( lacking(If, K, Need) ; lacking(If1, K, Need) ) ),
+            Needs),
+    (   memberchk(Fact, Seen)
+    ->  Todo = Todo0,
+        Missing = Missing1
+    ;   append(Todo0, Needs, Todo),
         (   Needs == []
-        ->  ( L = [not, F] -> Fact = neg(F) ; Fact = L ),
-            Missing = [missing(Fact, By)|Missing1]
+        ->  Missing = [missing(Fact, By)|Missing1]
         ;   Missing = Missing1
-        ),
-        append(Todo0, Needs, Todo)
+        )
     ),
-    roots(Todo, [L|Seen], Grounds, K, Missing1).
+    roots(Todo, [Fact|Seen], Grounds, K, Missing1).
