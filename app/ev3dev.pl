@@ -74,6 +74,11 @@ status(Arguments, Status) :-
     ).
 
 interrupt(_) :-
+    (   current_prolog_flag(argv, [mark|_])
+    ->  format(user_error, "~nInterrupted. The same command with --resume \c
+                            goes on.~n", [])
+    ;   true
+    ),
     halt(1).
 
 %   10.1 begins each message with `[Thread main]` otherwise.

@@ -349,11 +349,14 @@ test(an_interrupted_marking_goes_on, [condition(can_enclose), Left-Lines == []-2
                   Command = ['-q', 'app/ev3dev.pl', mark, Exercise, One, Slow, '--seeds', '1',
                              '--jobs', '1', '--out', Out],
                   process_create(Prolog, Command,
-                                 [ stdin(null), stdout(null), stderr(null), process(Pid),
+                                 [ stdin(null), stdout(null), stderr(pipe(Err)), process(Pid),
                                    environment(['TMP'=Folder]) ]),
                   until(lines(File, 1)),
                   process_kill(Pid, int),
+                  read_string(Err, _, Said),
+                  close(Err),
                   process_wait(Pid, exit(1)),
+                  assertion(sub_string(Said, _, _, _, "with --resume goes on")),
                   directory_files(Folder, Names),
                   include([Name]>>sub_atom(Name, 0, _, _, swipl_), Names, Left),
                   append(Command, ['--resume'], Again),
@@ -377,6 +380,8 @@ until(Goal) :-
     ( call(Goal) -> true ; sleep(0.01), fail ),
     !.
 
+test(a_full_disk_names_the_file, error(io_error(write, '/dev/full'))) :-
+    ev3dev_marking_report:to_file('/dev/full', write(marks)).
 test(no_folder_for_its_reports, error(_)) :-
     with_folder(( folder(Folder), atom_concat(Folder, '/file', File), program(honest, Honest),
                   setup_call_cleanup(open(File, write, S), true, close(S)),

@@ -6,7 +6,8 @@
 /** <module> What no program behind the fence may do
 
 Each is a command of the shell that must fail there, also if root marks. `$KEPT` is a directory
-outside, `$MARKER` the number of the marker's process.
+outside, `$MARKER` the number of the marker's process. Outside, as root, some would succeed, and
+mount over /tmp or rename the machine: so the program runs none where it sees /etc.
 */
 
 %!  probe(?Name, ?Command) is nondet.
@@ -86,7 +87,8 @@ probing(Kept, Lines) :-
     format(string(Sets), "    setenv('KEPT', ~q), setenv('MARKER', ~q), setenv('PACK', ~q),",
            [Kept, Marker, Pack]),
     append(Probes,
-           [ "main :-", Sets,
+           [ "main :- exists_directory('/etc'), !, throw(no_fence).",
+             "main :-", Sets,
              "    source_file(main, Program), setenv('PROGRAM', Program), us_dist_cm(in1, _),",
              "    forall(( probe(Name, Command), tried(Command) ), ( writeln(Name) )).",
              "tried(Command) :-",

@@ -1,7 +1,8 @@
 :- module(ev3dev_marking_kept,
           [ with_kept_runs/4,           % +Directory, +Resume, -Kept, :Goal
             kept_run/3,                 % +Kept, +Run, -Result
-            keep_run/3                  % +Kept, +Run, +Result
+            keep_run/3,                 % +Kept, +Run, +Result
+            writing/2                   % +File, :Goal
           ]).
 :- use_module('../files/directory', [readable_file/3]).
 :- use_module('../load/compiled', [contents/2, pack_folder/1]).
@@ -9,7 +10,9 @@
               [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [member/2]).
 
-:- meta_predicate with_kept_runs(+, +, -, 0).
+:- meta_predicate
+    with_kept_runs(+, +, -, 0),
+    writing(+, 0).
 
 /** <module> The results of runs, on disk as soon as they are there
 
@@ -82,8 +85,17 @@ kept_run(kept(_, Sources), Run, Result) :-
 
 keep_run(kept(Out, Sources), Run, Result) :-
     key(Sources, Run, Key),
-    write_run(Out, Key, Result),
-    flush_output(Out).
+    stream_property(Out, file_name(File)),
+    writing(File, ( write_run(Out, Key, Result), flush_output(Out) )).
+
+%!  writing(+File, :Goal) is det.
+%
+%   Call Goal once. If a disk is full, the error names File, not a stream.
+
+writing(File, Goal) :-
+    catch(Goal, error(io_error(write, _), Context),
+          throw(error(io_error(write, File), Context))),
+    !.
 
 key(Sources, Run, Key) :-
     Run = run(_, _, _, _, World, Robot),

@@ -10,6 +10,7 @@
 :- use_module(forms,
               [ end_words/2, form/2, gradescope/2, has_form/3, text/1,
                 write_form/4 ]).
+:- use_module(kept, [writing/2]).
 :- use_module(read, [exercise_seeds/3]).
 :- use_module(submissions, [can_be/2]).
 :- use_module(library(filesex),
@@ -114,10 +115,11 @@ free_page(Plain, Number, Taken, Page, Low) :-
 :- meta_predicate to_file(+, 0).
 
 to_file(File, Goal) :-
-    setup_call_cleanup(
-        open(File, write, Out, [encoding(utf8)]),
-        ( with_output_to(string(Text), Goal), write(Out, Text) ),
-        close(Out)).
+    with_output_to(string(Text), Goal),
+    writing(File, setup_call_cleanup(
+                      open(File, write, Out, [encoding(utf8)]),
+                      ( write(Out, Text), flush_output(Out) ),
+                      close(Out, [force(true)]))).
 
 % ---------------- HTML
 
