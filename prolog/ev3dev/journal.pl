@@ -81,7 +81,8 @@ why(What) :-
     why_at(What, inf).
 
 why_at(What0, Until) :-
-    (   explained(What0, _, Message)
+    (   Until == inf,
+        explained(What0, _, Message)
     ->  print_message(help, Message)
     ;   word(What0, What),
         (   why_(What, Until, Why, Last)

@@ -139,6 +139,8 @@ test(conditions, [all(Floor == [4])]) :-
 test(a_situation_in_the_middle, S == do(up(9), do(off(5), do(up(5), s0)))) :-
     loaded(elevator),
     once(elevator:do(go(9), do(off(5), do(up(5), s0)), S)).
+test(a_condition_without_its_situation, true(sub_atom(Text, _, _, 0, 'There is place/2 with a situation: restoreSitArg/3 must name it'))) :-
+    catch(ways(blocks, ?(place(a)), 1, _), error(_, context(_, Text)), true).
 test(an_unknown_part_is_named,
      throws(error(existence_error(golog_program, fly/0), _))) :-
     ways(elevator, open : fly, 1, _).
