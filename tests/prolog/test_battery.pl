@@ -24,7 +24,8 @@ test(an_unbound_key_enumerates,
 test(a_wrong_value_fails, [forall(tree(Tree)), fail]) :-
     in_tree(Tree, battery(voltage, 1.0)).
 test(the_voltage_falls_under_load, [forall(behaving(Tree))]) :-
-    in_tree(Tree, ( battery(voltage, Rest), motor_run(outA, 100),
+    in_tree(Tree, ( battery(voltage, Rest),
+                    forall(member(Port, [outA, outB, outC]), motor_run(Port, 100)),
                     eventually(( motor_wait(outA, [timeout(0.05)], timeout),
                                  battery(voltage, Load), Load < Rest,
                                  battery(current, Amperes), Amperes > 0.3 )) )).

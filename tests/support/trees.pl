@@ -155,7 +155,7 @@ on(plain, Goal) :-
 on(simulator, Goal) :-
     in_tree(simulator, with_sim(room, Goal)).
 on(mount, Goal) :-
-    in_tree(mount, on_mount(room, [clock(realtime)], Goal)).
+    in_tree(mount, on_slow_mount(room, Goal)).
 
 %!  on_slow_mount(+World, :Goal)
 %

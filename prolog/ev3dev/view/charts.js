@@ -314,7 +314,8 @@ export class Charts {
   }
 
   get range() {
-    if (this.zoom) return this.zoom;
+    const still = this.zoom ?? this.grip?.range;
+    if (still) return still;
     const live = this.until(this.latest);
     if (this.moment === null || (this.moment >= live[0] && this.moment <= live[1])) return live;
     return this.until(Math.max(this.moment, Math.min(this.latest, this.moment + this.span / 2)));
@@ -364,15 +365,16 @@ export class Charts {
 
   listen() {
     const { box } = this;
-    let grip = null;
     box.addEventListener('pointerdown', (event) => {
       const { target } = event;
       if (target.tagName !== 'CANVAS' || event.button || !this.views.length) return;
       this.keyed = false;
       target.setPointerCapture(event.pointerId);
-      grip = { x: event.clientX, time: this.timeAt(event), range: this.range, pan: target === this.axis || event.shiftKey };
+      // Meanwhile the charts stand still under the hand.
+      this.grip = { x: event.clientX, time: this.timeAt(event), range: this.range, pan: target === this.axis || event.shiftKey };
     });
     box.addEventListener('pointermove', (event) => {
+      const { grip } = this;
       if (grip?.pan) {
         const [from, to] = grip.range;
         const by = Math.min(this.latest - to, ((grip.x - event.clientX) * (to - from)) / this.wide);
@@ -383,13 +385,13 @@ export class Charts {
       }
     });
     box.addEventListener('pointerup', (event) => {
-      const [range, was] = [this.stretch, grip];
-      grip = this.stretch = null;
+      const [range, was] = [this.stretch, this.grip];
+      this.grip = this.stretch = null;
       if (!was || was.pan) return;
       if (range) this.shift(this.about((range[0] + range[1]) / 2, range[1] - range[0]));
       else if (event.target !== this.axis) tell(was.time);
     });
-    box.addEventListener('pointercancel', () => { grip = this.stretch = null; });
+    box.addEventListener('pointercancel', () => { this.grip = this.stretch = null; });
     box.addEventListener('pointerleave', () => { if (!this.keyed) this.point(null); });
     box.addEventListener('dblclick', (event) => { if (event.target.tagName === 'CANVAS') this.live(); });
     box.addEventListener('keydown', (event) => this.key(event));
