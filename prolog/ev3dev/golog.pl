@@ -744,6 +744,15 @@ of_domain(Term) :-
         ),
         catch(discontiguous(Module:Name/Arity),
               error(permission_error(_, _, _), _), true)
+    ;   Arity > 0,
+        arg(Arity, Head, Last),
+        nonvar(Last),
+        memberchk(Last, [s0, do(_, _)])
+    ->  % A fluent with a situation: its axiom, and how it begins
+        in_importer(Module),
+        catch(( discontiguous(Module:Name/Arity),
+                multifile(Module:Name/Arity) ),
+              error(permission_error(_, _, _), _), true)
     ;   own_export(Name/Arity)
     ->  % The program's own definition replaces this library's, in silence.
         in_importer(Module),

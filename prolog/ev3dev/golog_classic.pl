@@ -9,7 +9,6 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
-:- use_module(library(lists), [append/3]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- reexport(golog).
 
@@ -54,34 +53,3 @@ executes a program on the robot, by robot_action/2.
 situation_history(s0, []).
 situation_history(do(Action, Situation), [Action|History]) :-
     situation_history(Situation, History).
-
-%   The axiom of a fluent and its initial values may stand apart, also in two
-%   files.
-
-:- public of_fluent/1.
-
-of_fluent(Term) :-
-    nonvar(Term),
-    (   Term = (Head :- _)
-    ->  true
-    ;   Head = Term
-    ),
-    compound(Head),
-    compound_name_arguments(Head, Name, Arguments),
-    append(_, [Last], Arguments),
-    nonvar(Last),
-    memberchk(Last, [s0, do(_, _)]),
-    prolog_load_context(module, M),
-    predicate_property(M:situation_history(_, _),
-                       imported_from(ev3dev_golog_classic)),
-    length(Arguments, Arity),
-    catch(( discontiguous(M:Name/Arity),
-            multifile(M:Name/Arity) ),
-          error(_, _), true).
-
-:- multifile system:term_expansion/2.
-:- dynamic system:term_expansion/2.
-
-system:term_expansion(Term, _) :-
-    ev3dev_golog_classic:of_fluent(Term),
-    fail.

@@ -202,6 +202,7 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %   Fails if there was no such command.
 %
 %   @error type_error(atom, What)
+%   @error existence_error(rule, Name) if that behave/1 did not have it
 
 why(What0, Why) :-
     (   nonvar(Why),

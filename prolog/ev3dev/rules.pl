@@ -751,15 +751,14 @@ next(Behavior, Next) :-
 
 ev3dev_causes:explained(rule(Name), rule(Why, Place),
                         ev3dev(why_rule(Name, Why, Place))) :-
-    (   nb_current(ev3dev_behavior, Behavior),
-        Behavior \== []
+    (   ( nb_current(ev3dev_behavior, Behavior)
+        ; nb_current(ev3dev_last_behavior, Behavior) ),
+        Behavior = behavior(rules: Rules),
+        arg(Index, Rules, Rule),
+        Rule = rule(name: Name)
     ->  true
-    ;   nb_current(ev3dev_last_behavior, Behavior)
+    ;   existence_error(rule, Name)
     ),
-    Behavior = behavior(rules: Rules),
-    arg(Index, Rules, Rule),
-    Rule = rule(name: Name),
-    !,
     rule_place(Name, Behavior, Place),
     Behavior = behavior(since: Since),
     arg(Index, Since, From),
