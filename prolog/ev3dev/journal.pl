@@ -82,6 +82,7 @@ why(What) :-
 
 why_at(What0, Until) :-
     (   Until == inf,
+        nonvar(What0),
         explained(What0, _, Message)
     ->  print_message(help, Message)
     ;   word(What0, What),
@@ -209,7 +210,8 @@ why(What0, Why) :-
         Why = at(Until)
     ->  must_be(number, Until),
         why_at(What0, Until)
-    ;   explained(What0, Why0, _)
+    ;   nonvar(What0),
+        explained(What0, Why0, _)
     ->  Why = Why0
     ;   word(What0, What),
         why_(What, inf, Why, _)

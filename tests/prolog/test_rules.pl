@@ -419,6 +419,9 @@ test(an_unknown_option_of_a_rule, error(domain_error(rule_option, hurry(1)), _))
 test(an_unknown_option, error(domain_error(behave_option, hurry(1)), _)) :-
     behave([], [hurry(1)]).
 
+test(why_of_nothing, error(instantiation_error, context(why/1, _))) :-
+    behave([(r :: true ~> true)], [timeout(0.1)]),
+    why(_).
 test(why_a_rule_does_not_apply, Whys == [ false(3 > 4), cooldown, active, above(c), ended,
                                           false(fail) ]) :-
     with_sim([], ( catch(behave([ (a :: X = 3, X > 4 ~> true), (e :: X = 3 ~> wait(0.1)),
