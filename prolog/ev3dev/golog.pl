@@ -744,6 +744,12 @@ of_domain(Term) :-
         ),
         catch(discontiguous(Module:Name/Arity),
               error(permission_error(_, _, _), _), true)
+    ;   own_export(Name/Arity)
+    ->  % The program's own definition replaces this library's, in silence.
+        in_importer(Module),
+        functor(General, Name, Arity),
+        predicate_property(Module:General, imported_from(ev3dev_golog)),
+        redefine_system_predicate(Module:General)
     ;   Arity > 0,
         arg(Arity, Head, Last),
         nonvar(Last),
@@ -753,12 +759,6 @@ of_domain(Term) :-
         catch(( discontiguous(Module:Name/Arity),
                 multifile(Module:Name/Arity) ),
               error(permission_error(_, _, _), _), true)
-    ;   own_export(Name/Arity)
-    ->  % The program's own definition replaces this library's, in silence.
-        in_importer(Module),
-        functor(General, Name, Arity),
-        predicate_property(Module:General, imported_from(ev3dev_golog)),
-        redefine_system_predicate(Module:General)
     ).
 
 in_importer(Module) :-

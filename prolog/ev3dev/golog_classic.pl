@@ -38,7 +38,8 @@ S = do(up(3), do(up(2), s0)).
 
 A condition has `&`, `v`, `-`, `=>`, `<=>`, `some(v, P)` and `all(v, P)`.
 restoreSitArg/3 says which of its atoms have a situation as their last
-argument; the others are goals of Prolog.
+argument; the others are goals of Prolog. A domain may also have its own
+holds(Fluent, S).
 
 The predicates are those of library(ev3dev/golog). do/3, trans/4, final/2,
 holds/2 and has_val/3 take a situation in the place of a history. golog/2

@@ -46,6 +46,11 @@ proc(steps(N), ?(on(b, a) & on(a, c)) #
                ?(N > 0) : pi(x, pi(y, move(x, y))) :
                pi(m, ?(m is N-1) : steps(m))).
 ").
+program(lamp, "
+primitive_action(on).  poss(on, S) :- \\+ holds(lit, S).
+holds(lit, do(A, S)) :- A = on ; holds(lit, S).
+proc(light, if(lit, ?(true), on)).
+").
 program(two_balls, "
 primitive_action(bounce(_, _)).  primitive_action(collide(_)).
 poss(bounce(B, T), S) :- soonest(bounce(B), T, S).
@@ -109,6 +114,8 @@ test(coffee, Ways == [[ pour, go(office(P)), give(P), go(machine), pour,
     ways(coffee, day, 1, Ways).
 test(blocks, Ways == [[move(a, table), move(a, c), move(b, a)]]) :-
     ways(blocks, flatten : steps(2), 1, Ways).
+test(fluents_may_be_clauses_of_holds, Ways == [[on]]) :-
+    ways(lamp, light : light, 9, Ways).
 test(two_balls, Ways == [[collide(8), bounce(b, 12)]]) :-
     ways(two_balls, events(2), 1, Ways).
 test(it_runs_on_a_robot, Floor-Angle == 0-0) :-

@@ -14,7 +14,7 @@
             is_set_by_exogenous/2,      % +Fluent, +Module
             program_in/4,               % +Module0, +Program0, -Module,
                                         % -Program
-            restored/3,                 % ?Restore, ?Condition, ?Body
+            restored/3,                 % +Condition, -Body, +Module
             precondition/3,             % +Action, -Condition, +Module
             located_precondition/4,     % +Action, -Condition, -Place, +Module
             proc_body/3,                % +Call, -Body, +Module
@@ -196,8 +196,10 @@ kind(initial, initially(F, _), F).
 kind(sensed, senses(_, F), F).
 kind(sensed, senses(_, _, F, _, _), F).
 kind(proc, proc(P, _), P).
-kind(proc, Restore, P) :-
-    restored(Restore, P, _).
+kind(proc, restoreSitArg(P, _, _), P).
+kind(proc, restore_situation(P, _, _), P).
+kind(proc, holds(P, _), P).
+kind(held, holds(P, _), P).         % the domain's own
 kind(uncertain, settles(_, _, F, _, _), F).
 kind(uncertain, rejects(_, _, F, _, _), F).
 kind(uncertain, causes(_, F, _, _), F).
@@ -222,6 +224,7 @@ sign(Module, Head, Count-Generation) :-
 
 note_heads(Module, Kind, Head, Term) :-
     (   has_clauses(Module, Head),
+        \+ predicate_property(Module:Head, imported_from(ev3dev_golog)),
         catch(clause(Module:Head, Body), _, fail),
         Body \== fail,
         note(Term, Kind, Module),
@@ -379,16 +382,18 @@ proc_body(Call, Body, Module) :-
     ;   call(Module:proc(Call, Body))
     ).
 proc_body(Call, Body, Module) :-
-    restored(Restore, Call, Body),
-    has_clauses(Module, Restore),
-    call(Module:Restore).
+    restored(Call, Body, Module).
 
-%!  restored(?Restore, ?Condition, ?Body) is nondet.
+%!  restored(+Condition, -Body, +Module) is nondet.
 %
-%   Restore is what a domain with situations says: Condition stands for Body.
+%   In a domain with situations, Condition stands for Body.
 
-restored(restoreSitArg(P, '$VAR'('S'), Body), P, Body).
-restored(restore_situation(P, '$VAR'('S'), Body), P, Body).
+restored(P, Body, M) :-
+    (   M:restoreSitArg(P, '$VAR'('S'), Body)
+    ;   M:restore_situation(P, '$VAR'('S'), Body)
+    ;   is_kind(held, P, M),
+        Body = holds(P, '$VAR'('S'))
+    ).
 
 %!  program_in(+Module0, +Program0, -Module, -Program) is det.
 %

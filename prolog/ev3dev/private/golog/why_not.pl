@@ -186,9 +186,7 @@ fluent_why(F, History, fluent(V, By), S, X0) :-
         ->  true
         ;   C = 0
         )
-    ;   restored(Restore, F, _),
-        has_clauses(M, Restore),
-        \+ \+ M:Restore,
+    ;   \+ \+ restored(F, _, M),
         truth(F, V, S, X),
         changed(F, V, History, Count, C, X)
     ),
@@ -237,9 +235,7 @@ by_clause(Entry, F, V, Before, X, M, Place) :-
     \+ \+ holds(P, S, X),
     !.
 by_clause(Entry, F, true, Before, X, M, Place) :-
-    restored(Restore, F, Body),
-    has_clauses(M, Restore),
-    call(M:Restore),
+    restored(F, Body, M),
     situation([Entry|Before], S, X),
     evaluated_arguments(Body, Goal, S, X),
     is_said(Goal, M, Place).
