@@ -56,8 +56,8 @@
               ]).
 :- use_module(private/golog/search, [found_path/4]).
 :- use_module(private/golog/theory,
-              [ declare_domain/1, domain_list/3, has_clauses/2, is_kind/3,
-                prepare/1, program_in/4, vocabulary/1
+              [ declare_domain/1, domain_list/3, has_clauses/2,
+                has_situations/1, prepare/1, program_in/4, vocabulary/1
               ]).
 :- use_module(private/golog/transitions,
               [is_final/3, program_shown/2, run/5, step/5]).
@@ -465,7 +465,7 @@ reached(History0, S, X, M, History) :-
 
 is_term(Situation, M) :-
     \+ is_list(Situation),
-    is_kind(fluent, '$VAR'('S'), M).
+    has_situations(M).
 
 %!  now(-History) is det.
 %

@@ -1,7 +1,7 @@
 :- module(ev3dev_golog_hints,
           [ hint/3                      % +Term, +Module, -Text
           ]).
-:- use_module(theory, [has_clauses/2, is_kind/3]).
+:- use_module(theory, [has_clauses/2, has_situations/1]).
 
 /** <module> Hints for the notation of books and other systems
 */
@@ -20,7 +20,7 @@ hint(Term, Module, Text) :-
         functor(Term, Name, Arity),
         written(Name/Arity, Here)
     ->  format(atom(Text), '. Write ~w', [Here])
-    ;   is_kind(fluent, '$VAR'('S'), Module),
+    ;   has_situations(Module),
         functor(Term, Name, Arity0),
         Arity is Arity0+1,
         current_predicate(Module:Name/Arity)

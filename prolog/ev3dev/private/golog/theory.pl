@@ -15,6 +15,7 @@
             program_in/4,               % +Module0, +Program0, -Module,
                                         % -Program
             restored/3,                 % +Condition, -Body, +Module
+            has_situations/1,           % +Module
             precondition/3,             % +Action, -Condition, +Module
             located_precondition/4,     % +Action, -Condition, -Place, +Module
             proc_body/3,                % +Call, -Body, +Module
@@ -184,30 +185,36 @@ prepare(Module) :-
         assertz(prepared(Module, Signature))
     ).
 
-kind(fluent, prim_fluent(F), F).
-kind(fluent, rel_fluent(F), F).
-kind(fluent, fun_fluent(F), F).
+%   A clause with this Head is about a Kind, Term. A change of a signed one is
+%   noticed.
+
+kind(Kind, Head, Term) :-
+    signed(Kind, Head, Term).
 kind(relational, rel_fluent(F), F).
-kind(action, prim_action(A), A).
-kind(exogenous, exog_action(A), A).
-kind(derived, pddl_derived(_, F, _), F).
-kind(precondition, poss(A, _), A).
-kind(initial, initially(F, _), F).
-kind(sensed, senses(_, F), F).
-kind(sensed, senses(_, _, F, _, _), F).
-kind(proc, proc(P, _), P).
-kind(proc, restoreSitArg(P, _, _), P).
-kind(proc, restore_situation(P, _, _), P).
-kind(proc, holds(P, _), P).
-kind(held, holds(P, _), P).         % the domain's own
-kind(uncertain, settles(_, _, F, _, _), F).
-kind(uncertain, rejects(_, _, F, _, _), F).
-kind(uncertain, causes(_, F, _, _), F).
-kind(uncertain, senses(A), A).
+kind(derived, pddl_derived(_, F, _), F).    % comes with actions
+kind(proc, holds(P, _), P).         % the domain's own
+kind(held, holds(P, _), P).
+
+signed(fluent, prim_fluent(F), F).
+signed(fluent, rel_fluent(F), F).
+signed(fluent, fun_fluent(F), F).
+signed(action, prim_action(A), A).
+signed(exogenous, exog_action(A), A).
+signed(precondition, poss(A, _), A).
+signed(initial, initially(F, _), F).
+signed(sensed, senses(_, F), F).
+signed(sensed, senses(_, _, F, _, _), F).
+signed(proc, proc(P, _), P).
+signed(proc, restoreSitArg(P, _, _), P).
+signed(proc, restore_situation(P, _, _), P).
+signed(uncertain, settles(_, _, F, _, _), F).
+signed(uncertain, rejects(_, _, F, _, _), F).
+signed(uncertain, causes(_, F, _, _), F).
+signed(uncertain, senses(A), A).
 
 signature(Module, Signature) :-
     findall(Sign,
-            ( kind(_, Head, _), sign(Module, Head, Sign) ),
+            ( signed(_, Head, _), sign(Module, Head, Sign) ),
             Signature).
 
 sign(Module, Head, Count-Generation) :-
@@ -412,6 +419,13 @@ program_in(M0, E0, M, E) :-
         E = E0
     ).
 
+%!  has_situations(+Module) is semidet.
+%
+%   True in a domain of library(ev3dev/golog_classic).
+
+has_situations(M) :-
+    noted(fluent, '$VAR', 1, M).
+
 %!  precondition(+Action, -Condition, +Module) is nondet.
 %!  located_precondition(+Action, -Condition, -Place, +Module) is nondet.
 %
@@ -419,14 +433,14 @@ program_in(M0, E0, M, E) :-
 %   is File:Line of it, or `none`.
 
 precondition(A, Condition, M) :-
-    (   is_kind(fluent, '$VAR'('S'), M)
+    (   has_situations(M)
     ->  Condition = poss(A, '$VAR'('S'))
     ;   M:poss(A, Condition)
     ).
 
 located_precondition(A, Condition, Place, M) :-
     has_clauses(M, poss(_, _)),
-    (   is_kind(fluent, '$VAR'('S'), M)
+    (   has_situations(M)
     ->  clause(M:poss(A, '$VAR'('S')), Condition, Ref)
     ;   clause(M:poss(A, Condition), Body, Ref),
         call(M:Body)
@@ -436,7 +450,7 @@ located_precondition(A, Condition, Place, M) :-
 %   The second argument of poss/2 is neither free nor a situation.
 
 conditions_checked(M) :-
-    (   \+ noted(fluent, '$VAR', 1, M),
+    (   \+ has_situations(M),
         has_clauses(M, poss(_, _)),
         catch(clause(M:poss(A, Condition), Body, Ref), _, fail),
         var(Condition),
