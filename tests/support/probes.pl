@@ -13,7 +13,7 @@ mount over /tmp or rename the machine: so the program runs none where it sees /e
 %!  probe(?Name, ?Command) is nondet.
 
 %   What is not there
-probe(homes,             'ls /root || ls /home').
+probe(homes,             'ls -d /root/.[a-z]* || ls -d /home/*/.[a-z]*'). % not the pack there
 probe(passwords,         'cat /etc/passwd || cat /etc/shadow').
 probe(exercises,         'ls -d /tmp/*/batch.pl || ls -d /tmp/*/*/batch.pl').
 probe(a_file_outside,    'cat $KEPT/secret || ls $KEPT').
