@@ -218,9 +218,11 @@ call_command(jog, [], Options) :-
 %   or a part that no other one has.
 
 exercise_file(Exercise, File) :-
-    (   (   member(Where, [ Exercise, ev3dev_pack(course/Exercise) ])
+    (   (   \+ atom_number(Exercise, _),       % 3 is not 3.pl
+            member(Where, [ Exercise, ev3dev_pack(course/Exercise) ])
         ;   part_of_course(Exercise, Name),
             Where = ev3dev_pack(course/Name)
+        ;   Where = Exercise
         ),
         (   absolute_file_name(Where, Folder,
                                [file_type(directory), file_errors(fail)]),

@@ -38,6 +38,9 @@ says(a_rule_that_never_has_its_turn,
 says(a_score_that_is_missed_by_far,
      [ "start :- robot, turn(20, 90)." ],
      "visits: it was in 1 square of 30 cm; at least 4 would count").
+says(a_score_by_a_predicate_of_the_exercise,
+     [ "start :- robot, turn(20, 90)." ],
+     "is quick: it was 0.0; more than 15 would count").
 says(a_recursion_without_end,
      [ "e(a, b). e(b, a).",
        "plan(G, G, []).",
@@ -75,6 +78,8 @@ tries(Lines, Text) :-
                       [ ":- use_module(library(ev3dev/exercise)).",
                         "exercise(e, [seconds(20), seeds(1)]).",
                         "score(5, visits) :- cells_visited(30, N), N >= 4, collisions(0).",
+                        "score(1, 'is quick') :- is_quick.",
+                        "is_quick :- path_length(Cm), duration(S), Cm/S > 15.",
                         "score(5, rests) :- ended(exit(0)), cells_visited(30, N), N >= 4." ]),
           write_lines(Mine,
                       [ ":- use_module(library(ev3dev)), use_module(library(ev3dev/rules)).",

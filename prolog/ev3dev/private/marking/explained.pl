@@ -36,7 +36,13 @@ explained(Exercise, Files, Seed, Enclosed, Lines) :-
               ended_as(Line1, Seconds, Line) ),
             Lines0),
     (   Lines0 == []
-    ->  findall(Line, ( idle_rule(Files, Line) ; missed(Exercise, Line) ),
+    ->  findall(Text-Words, missed(Exercise, Text, Words), Missed),
+        findall(Line,
+                (   idle_rule(Files, Line)
+                ;   append(Before, [Text-Words|_], Missed),
+                    \+ memberchk(_-Words, Before),
+                    format(string(Line), "~w: ~w", [Text, Words])
+                ),
                 Lines)
     ;   Lines = Lines0
     ).
@@ -104,9 +110,9 @@ listed(Term, Order) :-
 % ---------------- SCORES
 
 %   The first goal of a score that is not true of the run, in words: what was
-%   measured before it, and what it asks for.
+%   measured before it, and what it asks for. Words are said once.
 
-missed(exercise(Module, _, _, Scores), Line) :-
+missed(exercise(Module, _, _, Scores), Text, Words) :-
     member(score(_, Text, Module:Head, Share), Scores),
     copy_term(Head-Share, Score-Part),
     clause(Module:Score, Body),
@@ -114,11 +120,9 @@ missed(exercise(Module, _, _, Scores), Line) :-
     (   Failed == none
     ->  number(Part),
         Part < 1,
-        Known = [Measure|_],
-        measured(Measure, Words)
+        once(( member(Measure, Known), measured(Measure, Words) ))
     ;   wanted(Failed, Known, Words)
-    ),
-    format(string(Line), "~w: ~w", [Text, Words]).
+    ).
 
 failing((Goal, Goals), Module, Known0, Known, Failed) :-
     !,
@@ -130,10 +134,16 @@ failing((Goal, Goals), Module, Known0, Known, Failed) :-
     ).
 failing(ended(_), _, Known, Known, none) :-
     !.                                  % this run is ended early
-failing(Goal, Module, Known, [Goal|Known], Failed) :-
+failing(Goal, Module, Known0, Known, Failed) :-
     (   catch(Module:Goal, error(_, _), fail)
-    ->  Failed = none
-    ;   Failed = Goal
+    ->  Failed = none,
+        Known = [Goal|Known0]
+    ;   predicate_property(Module:Goal, number_of_clauses(1)),
+        \+ predicate_property(Module:Goal, imported_from(_)),
+        clause(Module:Goal, Body)       % one of the exercise
+    ->  failing(Body, Module, Known0, Known, Failed)
+    ;   Failed = Goal,
+        Known = Known0
     ).
 
 wanted(time_to(Place, _), _, Words) :-
@@ -153,8 +163,17 @@ wanted(Comparison, Known, Words) :-
     Last == Value,
     measured(Measure, Measured),
     !,
+    ( functor(Measure, lap_fraction, 2) -> Percent is round(100*Limit),
+      format(string(Asked), "~d %", [Percent]) ; Asked = Limit ),
     format(string(Words), "~w; ~w ~w would count",
-           [Measured, Needed, Limit]).
+           [Measured, Needed, Asked]).
+wanted(Comparison, _, Words) :-
+    Comparison =.. [Operator, Value, Limit],
+    needed(Operator, Needed),
+    compound(Value),
+    Number is Value,
+    format(string(Words), "it was ~1f; ~w ~w would count",
+           [Number, Needed, Limit]).
 
 needed(>=, "at least").
 needed(>, "more than").

@@ -19,8 +19,8 @@
 The file `runs.pl` has a term kept(Key, Result) in each line. Key stands for
 all that a result depends on, so the same run is not made again. A line that
 is not whole, as of a marker that was killed, is left out. A run is
-run(Text, Enclosed, Files, Seed, World, Robot): the text of the exercise, the
-program's files, and the world and robot of the exercise.
+run(Its, World, Robot): the world and robot of the exercise, and what else a
+result depends on.
 */
 
 :- dynamic known/2.                     % Key, Result
@@ -98,7 +98,7 @@ writing(File, Goal) :-
     !.
 
 key(Sources, Run, Key) :-
-    Run = run(_, _, _, _, World, Robot),
+    Run = run(_, World, Robot),
     named_file(World, WorldFile),
     named_file(Robot, RobotFile),
     variant_sha1(key(Sources, Run, WorldFile, RobotFile), Key).

@@ -418,7 +418,7 @@ batch_results(Jobs, Batch, Results) :-
             Results).
 
 run_of(batch(_-Text, Read, Programs, Enclosed, _, _), Program-Seed,
-       run(Text, Enclosed, Files, Seed, World, Robot)) :-
+       run([Text, Enclosed, Files, Seed], World, Robot)) :-
     memberchk(program(Program, _, Files, _, _), Programs),
     exercise_world(Read, Seed, World),
     exercise_setting(Read, robot(Robot), default).

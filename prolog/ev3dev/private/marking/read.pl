@@ -43,7 +43,10 @@ read_exercise(File, exercise(Module, Name, Options, Scores)) :-
             Exercises),
     (   Exercises = [Name-Options]
     ->  true
-    ;   wrong(File, 'there must be one fact exercise(Name, Options)')
+    ;   file_base_name(File, Base),
+        format(atom(Says), '~w is no exercise: it has no fact \c
+                            exercise(Name, Options), or several', [Base]),
+        wrong(File, Says)
     ),
     (   is_list(Options),
         member(wall(Seconds), Options)
