@@ -205,18 +205,18 @@ types(Parts, Path, Types) :-
                     names(Items, name, Path, Names),
                     member(Name, Names) ), Declared),
     findall(Sub-Super, ( member(name(Sub, Supers, _), Declared),
-                         Sub \== object,
                          member(Super, Supers) ), Edges),
     findall(Type, ( Type = object
                   ; member(Sub-Super, Edges),
                     ( Type = Sub ; Type = Super ) ), All0),
     sort(All0, All),
     findall(Type-Above, ( member(Type, All),
-                          above([Type], Edges, [object], Above) ), Pairs),
+                          above([Type, object], Edges, [], Above) ), Pairs),
     list_to_assoc(Pairs, Types),
     (   member(name(Sub, Supers, Place), Declared),
         member(Super, Supers),
         Super \== object,
+        Sub \== object,
         get_assoc(Super, Types, Above),
         memberchk(Sub, Above)
     ->  wrong(Path, Place, 'the type ~w is one of itself'-[Sub])

@@ -414,9 +414,9 @@ test(what_is_derived_is_so_in_both,
 
 test(what_is_written_in_many_ways_is_read, Plan == [press(main, l1)]) :-
     with_text("(DEFINE (DOMAIN D) ; (a comment
-                 (:REQUIREMENTS :Typing :fluents) (:types lamp Switch - thing)
+                 (:REQUIREMENTS :Typing :fluents) (:types lamp Switch - thing object - entity)
                  (:constants MAIN -switch) (:functions (power ?x -lamp) - number)
-                 (:predicates (on?x - (either lamp switch)) (done ?x - thing)
+                 (:predicates (on?x - (either lamp switch)) (done ?x - entity)
                               (near ?s - switch?l - lamp))
                  (:action press :effect (and (on?l) (when () (DONE ?l)) ())
                   :precondition (and (near ?s?l)) :parameters (?s - switch?l - lamp)))",

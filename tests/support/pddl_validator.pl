@@ -3,6 +3,8 @@
             plan_cost/4                 % +Domain, +Problem, +Plan, -Cost
           ]).
 :- use_module(library(lists)).
+:- use_module(library(occurs)).
+:- use_module(library(pairs)).
 :- use_module(library(readutil)).
 
 /** <module> Does a plan solve a problem in PDDL?
@@ -58,19 +60,33 @@ run([Term|Plan], State00, World, Verdict) :-
     ;   Verdict = impossible(Term)
     ).
 
-%   The state with what is derived. Each predicate is complete before the next
-%   in the file, whose rules may ask for its absence.
+%   The state with what is derived. A predicate is complete before another one
+%   whose rules mention it; the rest, which mention each other, come together.
 
 closed(State0, World, State) :-
     World = world(D, _, _),
     findall(Name, member([':derived', [Name|_], _], D), Names0),
-    list_to_set(Names0, Names),
-    foldl(completed(World), Names, State0, State).
+    sort(Names0, Names),
+    completed(Names, World, State0, State).
 
-completed(World, Name, State0, State) :-
+completed([], _, State, State) :-
+    !.
+completed(Names, World, State0, State) :-
+    World = world(D, _, _),
+    (   select(Name, Names, Rest),
+        \+ ( member([':derived', [Name|_], Condition], D),
+             sub_term(Other, Condition),
+             memberchk(Other, Rest) )
+    ->  derived([Name], World, State0, State1),
+        completed(Rest, World, State1, State)
+    ;   derived(Names, World, State0, State)
+    ).
+
+derived(Names, World, State0, State) :-
     World = world(D, _, _),
     findall([Name|Arguments],
             ( member([':derived', [Name|List], Condition], D),
+              memberchk(Name, Names),
               pairs(List, Parameters),
               bound(Parameters, Arguments, World, Bindings),
               true(Condition, Bindings, State0, World) ),
@@ -78,7 +94,7 @@ completed(World, Name, State0, State) :-
     append(New, State0, State1),
     sort(State1, State2),
     ( State2 == State0 -> State = State0
-    ; completed(World, Name, State2, State) ).
+    ; derived(Names, World, State2, State) ).
 
 %!  plan_cost(+Domain, +Problem, +Plan, -Cost) is det.
 
