@@ -32,5 +32,5 @@ station(2, blue).
 control :-
     col_reflect(in2, Light),
     Rate is 1.5*(Light-50),
-    drive_cm(24, Rate, [acceleration(100)]),
+    drive_cm(22, Rate, [acceleration(100)]),
     ignore(drive_wait([timeout(0.02)], timeout)).

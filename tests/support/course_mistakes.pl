@@ -179,9 +179,9 @@ program('08-competition', one_round, solution, ["drive(none, 8)"-"drive(none, 4)
         4-6, "It stops after one round.").
 program('08-competition', wrong_color, solution, ["station(3, green)"-"station(3, blue)"],
         1-4, "It takes green for blue.").
-program('08-competition', slow, solution, ["drive_cm(24,"-"drive_cm(7,"],
+program('08-competition', slow, solution, ["drive_cm(22,"-"drive_cm(7,"],
         7-8, "It is slow.").
 program('08-competition', no_end, solution, ["drive(_, 0) :-"-"drive(_, -100) :-"],
         7-9, "It does not stop after two rounds.").
-program('08-competition', too_fast, solution, ["drive_cm(24,"-"drive_cm(50,"],
+program('08-competition', too_fast, solution, ["drive_cm(22,"-"drive_cm(50,"],
         0-4, "It loses the line.").
