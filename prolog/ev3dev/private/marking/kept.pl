@@ -85,7 +85,8 @@ kept_run(kept(_, Sources), Run, Result) :-
 
 keep_run(kept(Out, Sources), Run, Result) :-
     key(Sources, Run, Key),
-    stream_property(Out, file_name(File)),
+    stream_property(Out, file_name(New)),       % its name before
+    atom_concat(File, '.new', New),
     writing(File, ( write_run(Out, Key, Result), flush_output(Out) )).
 
 %!  writing(+File, :Goal) is det.
