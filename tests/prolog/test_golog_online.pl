@@ -554,6 +554,18 @@ test(a_plan_may_be_too_far, Why = gave_up(inferences(_))) :-
     with_domain([ prim_action(a), poss(a, true), prim_fluent(n),
                   initially(n, 0), causes_val(a, n, N, N is n+1) ],
                 M, why_not(M:achieve(n < 0), Why)).
+test(why_a_fluent_names_the_line,
+     [ forall(member(F-Text, [ n-"causes_val(up, n,", light(3)-"initially(",
+                               at(lab)-"causes_true(go(P)",
+                               at(yard)-"causes_false(go(P)" ])),
+       true(sub_string(Line, 0, _, _, Text)) ]) :-
+    online([up, go(yard), up, go(lab)], [], _),
+    why(F, fluent(_, By)),
+    arg(_, By, File:Number),
+    !,
+    read_file_to_string(File, All, []),
+    split_string(All, "\n", "", Lines),
+    nth1(Number, Lines, Line).
 test(why_a_fluent_has_its_value,
      Whys == [ fluent(2, entry(2, b, none)), fluent(true, initially(none)),
                fluent(false, entry(3, a, none)), fluent(7, entry(4, e(s, 7),
