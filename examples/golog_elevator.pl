@@ -2,8 +2,9 @@
 % of a turn for each floor, and the keys of the brick are the call buttons:
 % down, left, enter, right, up, from the ground floor on.
 %
-%   ?- start.             % serves one call after the other ?- start(smart).
-%   % plans the shortest path at each call
+%   ?- start.             % serves one call after the other
+%   ?- start(smart).      % plans the shortest path at each call
+%   ?- start(planned).    % the same, without a program for the plan
 %
 % The program never ends: stop it with Ctrl-C. The motor stops then.
 
@@ -84,6 +85,15 @@ proc(all_served(Floors),
                ?(left >= 0),
                serve_floor(n),
                all_served(left) ]))).
+
+% Find the shortest plan for what is to be true, and follow it as long.
+
+proc(serve(planned),
+     prioritized_interrupts(
+         [ interrupt(some_call,
+                     [ unset(news), gexec(neg(news), achieve(neg(some_call))) ]),
+           interrupt(floor > 1, down),
+           interrupt(true, wait) ])).
 
 % The robot
 

@@ -59,7 +59,7 @@ pub fn usage(process: u32) -> Option<Usage> {
     }
     // The kernel shows hundredths of a second, whatever its own clock has.
     let time = |ticks| Duration::from_millis(10 * ticks);
-    let memory = pages * rustix::param::page_size() as u64;
+    let memory = pages * crate::page_size() as u64;
     ticks.map(|ticks| Usage { time: time(ticks), rest: switches, threads, memory })
 }
 
