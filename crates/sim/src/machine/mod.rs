@@ -220,6 +220,7 @@ impl Machine {
     }
 
     /// True if no other robot is in its world.
+    #[cfg(unix)]
     pub(crate) fn is_alone(&self) -> bool {
         self.robots.len() < 2
     }
