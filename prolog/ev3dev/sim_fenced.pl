@@ -349,7 +349,7 @@ enclosing(Whether, Extra) :-
     (   known_enclosing(_, _)
     ->  true
     ;   member(Found, [['--unshare-user', '--disable-userns'], []]),
-        catch(starts_enclosed(Found), error(_, _), fail)
+        starts_enclosed(Found)
     ->  assertz(known_enclosing(true, Found))
     ;   assertz(known_enclosing(false, []))
     ),
@@ -368,8 +368,9 @@ starts_enclosed(Extra) :-
                    close_new(File) )),
           enclosure(Directory, [Pack], Extra, [bwrap|Walls]),
           append(Walls, [Prolog, '-f', none, '-g', halt], Arguments),
-          process_create(path(bwrap), Arguments,
-                         [stdout(null), stderr(null), process(Pid)]),
+          catch(process_create(path(bwrap), Arguments,
+                               [stdout(null), stderr(null), process(Pid)]),
+                error(_, _), fail),
           process_wait(Pid, exit(0), []) ),
         end_workplace(Directory)).
 
