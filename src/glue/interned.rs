@@ -8,7 +8,8 @@ use std::sync::OnceLock;
 use swipl::fli::atom_in;
 use swipl::prelude::*;
 
-/// Ports, attributes, modes and types of the EV3's own devices, and of a few others.
+/// Ports, attributes, modes and types of the EV3's own devices, and of a few others. The last five
+/// come a million times in a task of the planner; Prolog keeps each other text until a call ends.
 #[rustfmt::skip]
 const WORDS: &[&str] = &[
     "outA", "outB", "outC", "outD", "in1", "in2", "in3", "in4",
@@ -25,7 +26,7 @@ const WORDS: &[&str] = &[
     "lego-nxt-us", "lego-nxt-touch", "lego-nxt-light", "lego-nxt-temp", "ht-nxt-compass",
     "ms-absolute-imu", "IR-SEEK", "IR-REMOTE", "REFLECT", "AMBIENT", "NXT-TEMP-C", "COMPASS",
     "COL-REFLECT", "COL-AMBIENT", "COL-COLOR", "RGB-RAW", "US-DIST-CM", "US-DIST-IN",
-    "US-LISTEN", "GYRO-ANG", "GYRO-G&A", "TOUCH", "IR-PROX",
+    "US-LISTEN", "GYRO-ANG", "GYRO-G&A", "TOUCH", "IR-PROX", "true", "false", "and", "or", "not",
 ];
 
 /// The size of the hash tables: a power of two, at most half full.

@@ -442,6 +442,23 @@ test(a_predicate_for_more_types_than_it_is_declared_for_is_a_warning,
     once(do(pddl_test:achieve(pddl_goal), H)),
     reverse(H, Plan).
 
+%   Prolog keeps the texts that a native call gets, a million at most.
+test(a_task_may_have_a_million_words, Plan == [step(60)]) :-
+    numlist(1, 1000, Ns),
+    findall(at(N), member(N, Ns), Fluents),
+    setup_call_cleanup(
+        ( forall(member(at(N), Fluents), ( assertz(pddl_big:rel_fluent(at(N))),
+                                           assertz(pddl_big:initially(at(N), true)) )),
+          assertz((pddl_big:prim_action(step(N)) :- between(1, 600, N))),
+          assertz(pddl_big:rel_fluent(end)), assertz(pddl_big:initially(end, false)),
+          assertz(pddl_big:poss(step(_), true)),
+          assertz((pddl_big:causes_false(step(N), at(M), true) :- member(M, Ns), M \== N)),
+          assertz(pddl_big:causes_true(step(60), end, true)) ),
+        ( once(do(pddl_big:achieve(and(end, at(60)), [shortest(false)]), H)), reverse(H, Plan) ),
+        forall(member(Head, [ rel_fluent(_), initially(_, _), prim_action(_), poss(_, _),
+                              causes_true(_, _, _), causes_false(_, _, _) ]),
+               retractall(pddl_big:Head))).
+
 %   What a file says is read, or refused with its place: wrong(In, Text, Formal,
 %   Message), where Message comes after the file. Unless In is `text`, Text is in the
 %   second line, after (define (In d).
