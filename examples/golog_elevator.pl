@@ -91,7 +91,8 @@ proc(all_served(Floors),
 proc(serve(planned),
      prioritized_interrupts(
          [ interrupt(some_call,
-                     [ unset(news), gexec(neg(news), achieve(neg(some_call))) ]),
+                     [ unset(news),
+                       gexec(neg(news), achieve(neg(some_call))) ]),
            interrupt(floor > 1, down),
            interrupt(true, wait) ])).
 

@@ -193,7 +193,7 @@ bad(Line, tab) :-
     sub_string(Line, _, _, _, "\t").
 bad(Line, trailing_space) :-
     sub_string(Line, _, 1, 0, " ").
-bad(Line, too_long) :-
+bad(Line, of(Length, characters, most(78))) :-
     string_length(Line, Length),
     Length > 78.
 bad(Line, banned(Word)) :-

@@ -14,11 +14,9 @@ pub mod processes;
 #[cfg(not(unix))]
 pub use linux::Errno;
 #[cfg(not(unix))]
-pub use page::{Instant, page_size, process_id, sleep};
+pub use page::{Instant, process_id, sleep};
 #[cfg(unix)]
 pub use rustix::io::Errno;
-#[cfg(unix)]
-pub use rustix::param::page_size;
 #[cfg(unix)]
 pub use std::process::id as process_id;
 #[cfg(unix)]

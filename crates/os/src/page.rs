@@ -18,11 +18,6 @@ unsafe extern "C" {
     fn take(bytes: *mut u8);
 }
 
-/// The bytes of a page of WebAssembly's memory.
-pub fn page_size() -> usize {
-    1 << 16
-}
-
 /// Gives the page a text.
 pub fn say_to_page(text: &str) {
     // Safety: the page copies it.

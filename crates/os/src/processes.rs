@@ -3,11 +3,19 @@
 //!
 //! A thread that can run is awake, also while other programs have the processors. So nothing
 //! here depends on what else the machine has to do.
+#[cfg(unix)]
+use rustix::param::page_size;
 use std::fs::{self, File};
 use std::io::Read as _;
 use std::path::Path;
 use std::str::FromStr;
 use std::time::Duration;
+
+/// The bytes of a page of WebAssembly's memory.
+#[cfg(not(unix))]
+fn page_size() -> usize {
+    1 << 16
+}
 
 /// What a process and all that descend from it have used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -59,7 +67,7 @@ pub fn usage(process: u32) -> Option<Usage> {
     }
     // The kernel shows hundredths of a second, whatever its own clock has.
     let time = |ticks| Duration::from_millis(10 * ticks);
-    let memory = pages * crate::page_size() as u64;
+    let memory = pages * page_size() as u64;
     ticks.map(|ticks| Usage { time: time(ticks), rest: switches, threads, memory })
 }
 
