@@ -76,6 +76,7 @@ unit(raw, ['ev3dev/raw']).
 unit(rules, ['ev3dev/rules']).
 unit(plnxt, ['ev3dev/plnxt']).
 unit(golog, ['ev3dev/golog']).
+unit(golog_classic, ['ev3dev/golog_classic']).
 unit(pddl, ['ev3dev/pddl']).
 unit(journal, ['ev3dev/journal']).
 unit(view, ['ev3dev/view']).

@@ -257,7 +257,7 @@ test(too_many_processes, Ended == limit(processes)) :-
     fenced(["main :- us_dist_cm(in1, _),",
             "    shell('for n in $(seq 300); do sleep 1000 & done; wait')."], Ended, _, _, []).
 test(too_much_memory_together, Ended == limit(memory)) :-
-    fenced(["main :- us_dist_cm(in1, _), shell('for n in $(seq 8); do",
+    fenced(["main :- us_dist_cm(in1, _), shell('for n in $(seq 16); do",
             " { x=$(head -c 30000000 /dev/zero | tr \"\\\\0\" x); sleep 1000; } & done; wait')."],
            Ended, _, _, [memory(200)]).
 test(what_a_killed_process_has_left, Found-Still == []-[]) :-
