@@ -13,7 +13,8 @@ const BYTES: usize = if cfg!(target_pointer_width = "64") { 512 << 20 } else { 1
 /// A search that has begun.
 #[arc_blob("ev3_planner", defaults)]
 struct PlannerBlob {
-    planner: Mutex<Planner>,
+    /// `None` once it has ended: Prolog may keep the blob for long.
+    planner: Mutex<Option<Planner>>,
 }
 
 natives! {
@@ -24,7 +25,7 @@ natives! {
     semidet fn "planner_new_"(context, task, cheapest, planner) as call("do", 2) {
         let limits = Limits { cheapest: truth(&call, cheapest)?, bytes: BYTES };
         match Planner::new(&task_of(&call, task)?, &limits) {
-            Ok(made) => planner.unify(Arc::new(PlannerBlob { planner: Mutex::new(made) })),
+            Ok(made) => planner.unify(Arc::new(PlannerBlob { planner: Mutex::new(Some(made)) })),
             Err(fault) => wrong_because(&call, "planning_task", task, &fault.to_string()),
         }
     }
@@ -35,9 +36,17 @@ natives! {
         let steps = u64::try_from(call.integer(steps)?).unwrap_or(0);
         let blob: Arc<PlannerBlob> = planner.get_ex()?;
         let mut planner = locked(&blob.planner);
+        let planner = planner.as_mut().ok_or(PrologError::Failure)?;
         let now = planner.work(steps);
         states.unify(planner.states() as u64)?;
         progress.unify(&progress_term(&call, now)?)
+    }
+
+    /// planner_end_(+Planner): what it has in memory is released.
+    semidet fn "planner_end_"(_context, planner) {
+        let blob: Arc<PlannerBlob> = planner.get_ex()?;
+        *locked(&blob.planner) = None;
+        Ok(())
     }
 }
 

@@ -16,7 +16,8 @@
               ]).
 :- use_module(theory, [has_clauses/2, has_possible_values/1]).
 :- use_module('../errors/errors', [domain_error/2, throw_error/3]).
-:- use_module('../native/native', [planner_new_/3, planner_work_/4]).
+:- use_module('../native/native',
+              [planner_end_/1, planner_new_/3, planner_work_/4]).
 
 /** <module> Plans for domains that can be made ground
 
@@ -229,8 +230,9 @@ cost(Costs, A, M, Cost) :-
 %   Plan is a list of actions, a cheapest one if Shortest is true.
 
 task_plan(task(Actions, Native), Shortest, Effort, Plan) :-
-    planner_new_(Native, Shortest, Planner),
-    planned(Planner, 0, Effort, Numbers),
+    setup_call_cleanup(planner_new_(Native, Shortest, Planner),
+                       planned(Planner, 0, Effort, Numbers),
+                       planner_end_(Planner)),
     findall(A, ( member(Number, Numbers),
                  At is Number+1,
                  arg(At, Actions, A) ),

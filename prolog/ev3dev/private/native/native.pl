@@ -118,6 +118,7 @@
             % src/planner.rs
             planner_new_/3,             % +Task, +Cheapest, -Planner
             planner_work_/4,            % +Planner, +Steps, -Progress, -States
+            planner_end_/1,             % +Planner
             % src/ports.rs
             port_set_mode_/2,           % +Port, +Mode
             port_device_/2,             % ?Port, -Type
