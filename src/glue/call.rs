@@ -339,7 +339,8 @@ impl<'a, C: Prolog> Call<'a, C> {
         let Some(arguments) = attempt_opt(self.context.compound_terms_vec(term))? else {
             return Ok(None);
         };
-        Ok(Some((term.get::<Functor>()?.name_string(), arguments)))
+        let functor = attempt_opt(term.get::<Functor>())?;
+        Ok(functor.map(|functor| (functor.name_string(), arguments)))
     }
 
     /// Fails, and has Prolog explain why.

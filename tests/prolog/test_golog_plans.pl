@@ -133,6 +133,20 @@ test(achieve_computes_with_values, [Length, More] == [17, 0]) :-
                   length(H, Length),
                   findall(x, do(M:achieve(floor = 9), _), Never),
                   length(Never, More) )).
+test(a_search_that_ended_has_no_memory, Alive == []) :-
+    elevator(Clauses),
+    with_domain(Clauses, M, once(do(M:achieve(floor = 2), _))),
+    findall(B, ( current_blob(B, ev3_planner),
+                 ev3dev_native:planner_work_(B, 0, _, _) ),
+            Alive).
+test(a_task_may_have_more_than_a_million_effects) :-
+    % Prolog keeps a million texts for a native call, and then aborts.
+    findall(effect(true, 0, true), between(1, 1100000, _), Effects),
+    setup_call_cleanup(
+        ev3dev_native:planner_new_(task(1, [], [action(true, Effects, 1)],
+                                        [], 0), false, Planner),
+        ev3dev_native:planner_work_(Planner, 50, plan([0]), _),
+        ev3dev_native:planner_end_(Planner)).
 test(achieve_gives_up_values_without_end, H == [up, up]) :-
     with_domain([ prim_action(up), poss(up, true), prim_fluent(n),
                   initially(n, 0), causes_val(up, n, N, N is n+1) ],

@@ -144,7 +144,8 @@ unsafe fn is_text(atom: atom_t) -> bool {
     }
 }
 
-/// The name and arity of a compound term, if the name is a text: `swipl` panics at any other.
+/// The name and arity of a compound term. If the name is asked for, it must be a text: `swipl` panics
+/// at any other. Prolog keeps each text until a native call ends, and at most a million of them.
 pub unsafe fn PL_get_compound_name_arity(t: term_t, name: *mut atom_t, arity: *mut usize) -> c_int {
     #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
@@ -156,7 +157,7 @@ pub unsafe fn PL_get_compound_name_arity(t: term_t, name: *mut atom_t, arity: *m
         if !name.is_null() {
             *name = its_name;
         }
-        c_int::from(is_compound && is_text(its_name))
+        c_int::from(is_compound && (name.is_null() || is_text(its_name)))
     }
 }
 

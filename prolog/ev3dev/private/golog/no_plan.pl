@@ -5,7 +5,7 @@
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(context, [context_module/2, unblock/0, was_given_up/2]).
 :- use_module(ground, [conjunction/3]).
-:- use_module(planning_task, [ground_problem/7]).
+:- use_module(planning_task, [ground_problem/5]).
 :- use_module(programs, [in_books/2]).
 :- use_module(theory, [is_kind/3, proc_body/3]).
 :- use_module(transitions, [run/5]).
@@ -74,14 +74,11 @@ needed([P|Ps], Kept, Needed, S, X) :-
 
 missing(Ps, Missing, S, X, M) :-
     fluents_now(S, X, Values),
-    (   ground_problem(M, and(Ps), Values, none, Grounds0, Rules, Goal)
+    (   ground_problem(M, and(Ps), Values, none,
+                       problem(Facts, Grounds0, Rules, Goal))
     ->  findall(ground(F, If, [effect(true, F, true)]),
                 member(rule(F, If), Rules), Derived),
         append(Derived, Grounds0, Grounds),
-        findall(Fact,
-                ( member(F-V, Values),
-                  ( V == true -> Fact = F ; Fact = (F = V) ) ),
-                Facts),
         empty_assoc(None),
         reached([true|Facts], Grounds, None, K),
         findall(Fact-goal, lacking(Goal, K, Fact), Todo),

@@ -2,11 +2,12 @@
           [ task/6,                     % +Module, +Goal, +Values, +Costs,
                                         % +Effort, -Task
             cost/4,                     % +Costs, +Action, +Module, -Cost
-            ground_problem/7,           % +Module, +Goal, +Values, +Effort,
-                                        % -Grounds, -Rules, -Condition
+            ground_problem/5,           % +Module, +Goal, +Values, +Effort,
+                                        % -Problem
             task_plan/4                 % +Task, +Shortest, +Effort, -Plan
           ]).
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, put_assoc/4]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(effort, [counted_natively/3, effort_id/2, polled/1]).
 :- use_module(ground,
@@ -15,7 +16,7 @@
                 possible_value/2, value_added/3, with_values_of/2
               ]).
 :- use_module(theory, [has_clauses/2, has_possible_values/1]).
-:- use_module('../errors/errors', [domain_error/2, throw_error/3]).
+:- use_module('../errors/errors', [throw_error/3]).
 :- use_module('../native/native',
               [planner_end_/1, planner_new_/3, planner_work_/4]).
 
@@ -40,7 +41,8 @@ task of planner_new_/3.
 
 task(M, Goal, Values, Costs, Effort,
      task(Actions, task(N, Initial, Natives, Rules, NumberedGoal))) :-
-    ground_problem(M, Goal, Values, Effort, Grounds, GroundRules, Condition),
+    ground_problem(M, Goal, Values, Effort,
+                   problem(Facts, Grounds, GroundRules, Condition)),
     findall(A, member(ground(A, _, _), Grounds), Names),
     compound_name_arguments(Actions, actions, Names),
     empty_assoc(None),
@@ -48,35 +50,47 @@ task(M, Goal, Values, Costs, Effort,
     numbered_rules(GroundRules, Rules, Numbers0, Numbers1),
     numbered(Condition, NumberedGoal, Numbers1, N-Numbers),
     findall(Number,
-            ( member(F-V, Values),
-              ( is_relation(F, M) -> V == true, Fact = F ; Fact = (F = V) ),
-              get_assoc(Fact, Numbers, Number) ),
+            ( member(Fact, Facts), get_assoc(Fact, Numbers, Number) ),
             Initial).
 
-%!  ground_problem(+Module, +Goal, +Values, +Effort, -Grounds, -Rules,
-%!                 -Condition) is semidet.
+%!  ground_problem(+Module, +Goal, +Values, +Effort, -Problem) is semidet.
 %
-%   As task/6, before facts become numbers: Grounds is a list of
+%   As task/6, before facts become numbers: Problem is problem(Facts, Grounds,
+%   Rules, Condition). Facts are those of Values. Grounds is a list of
 %   ground(Action, If, Effects), and an effect is effect(Truth, Fact, If).
 
-ground_problem(M, Goal, Values, Effort, Grounds, Rules, Condition) :-
+ground_problem(M, Goal, Values, Effort,
+               problem(Facts, Grounds, Rules, Condition)) :-
     \+ has_possible_values(M),
     \+ has_clauses(M, forget(_, _)),
-    \+ ( member(F-V, Values), is_relation(F, M), V \== true, V \== false ),
-    findall(F-V, ( member(F-V, Values), \+ is_relation(F, M) ), Pairs),
+    values_facts(Values, M, Pairs, Facts),
     catch(with_values_of(Pairs, ground_domain(M, Goal, Effort, Grounds, Rules,
                                               Condition)),
           error(Formal, Where),
           ( Formal = resource_error(_), throw(error(Formal, Where)) )).
 
+%   values_facts(+Values, +Module, -Pairs, -Facts) is semidet: Pairs are the
+%   values of fluents that are no relations.
+
+values_facts([], _, [], []).
+values_facts([F-V|Values], M, Pairs, Facts) :-
+    (   is_relation(F, M)
+    ->  memberchk(V, [true, false]),
+        Pairs = Pairs1,
+        ( V == true -> Facts = [F|Facts1] ; Facts = Facts1 )
+    ;   Pairs = [F-V|Pairs1],
+        Facts = [F = V|Facts1]
+    ),
+    values_facts(Values, M, Pairs1, Facts1).
+
 ground_domain(M, Goal, Effort, Grounds, Rules, Condition) :-
     ground_actions(M, As),
     findall(action(A, [], none), member(A, As), Actions0),
     grounded(1, all, Actions0, M, Effort, Actions),
-    findall(ground(A, If, Facts),
-            ( member(action(A, _, ground(If, Effects)), Actions),
-              facts_of(Effects, If, M, Facts) ),
-            Grounds),
+    findall(ground(A, If, Effects),
+            member(action(A, _, ground(If, Effects)), Actions),
+            Grounds0),
+    maplist(with_facts(M), Grounds0, Grounds),
     ground_rules(M, Rules),
     ground_condition(Goal, M, Condition).
 
@@ -129,16 +143,16 @@ grounded_action(A, M, Ground) :-
     ;   Ground = none
     ).
 
-%   facts_of(+Effects, +If, +Module, -Facts) is semidet: Facts are the effects
-%   on facts. A value that becomes true makes others false.
+%   with_facts(+Module, +Ground0, -Ground) is semidet: effects on fluents
+%   become effects on facts. A value that becomes true makes others false.
+%   Fails if a fluent would have two values.
 
-facts_of(Effects, If, M, Facts) :-
+with_facts(M, ground(A, If, Effects), ground(A, If, Facts)) :-
     \+ ( append(_, [effect(V1, F, E1)|Others], Effects),
          \+ is_relation(F, M),
          member(effect(V2, F, E2), Others),
          V1 \== V2,
-         \+ exclude(E1, E2),
-         must_be_one_value(F) ),
+         \+ exclude(E1, E2) ),
     findall(effect(Truth, Fact, E),
             ( member(effect(V, F, E), Effects),
               (   is_relation(F, M)
@@ -154,9 +168,6 @@ facts_of(Effects, If, M, Facts) :-
                   )
               ) ),
             Facts).
-
-must_be_one_value(F) :-
-    domain_error(golog_planning, F).
 
 %   numbered(+Expression, -Numbered, +Numbers0, -Numbers): fluents become
 %   numbers. Numbers is Count-Assoc.
