@@ -131,9 +131,14 @@ function name() {
 }
 
 function run() {
-  if (program?.state === 'running') return machine.stop();
+  if (program?.state === 'running') return stop();
   if (!machine.send(`run ${name()} ${editor.text}`)) notice('Prolog is not ready yet.', { seconds: 3 });
   return true;
+}
+
+function stop() {
+  text($('run'), 'Stopping');
+  machine.stop();
 }
 
 function running(runs) {
@@ -145,9 +150,18 @@ function running(runs) {
 
 // ----------------------------------------------------------------- the buttons
 
-$('run').addEventListener('click', run);
+// STOP is for the moment in which the finger goes down. The click that follows it is no Run.
+let stopped = false;
+$('run').addEventListener('pointerdown', () => {
+  stopped = program?.state === 'running';
+  if (stopped) stop();
+});
+$('run').addEventListener('click', ({ detail }) => {
+  if (!stopped || detail === 0) run();
+  stopped = false;
+});
 document.addEventListener('keydown', (event) => {
-  if (event.key === 'Escape' && !event.defaultPrevented && program?.state === 'running') machine.stop();
+  if (event.key === 'Escape' && !event.defaultPrevented && program?.state === 'running') stop();
 });
 $('name').addEventListener('change', () => {
   $('name').value = name();

@@ -2,7 +2,8 @@
 
 import { $, el, text } from './view/dom.js';
 
-const MOST = 1000;
+/** How many rows and letters are kept. */
+const MOST = { rows: 1000, letters: 200_000 };
 const SHOWN = new Set(['output', 'goal', 'answer', 'warning', 'error', 'stop', 'mark']);
 
 export class Console {
@@ -17,23 +18,29 @@ export class Console {
     this.next = 1;
     this.newest = -1;
     this.line = null;
+    this.letters = 0;
+    this.atEnd = true;
+    this.list.addEventListener('scroll', () => { this.atEnd = this.list.scrollTop + this.list.clientHeight >= this.list.scrollHeight - 24; });
     $('query').addEventListener('submit', (event) => {
       event.preventDefault();
       this.ask(this.input.value.trim());
     });
     this.input.addEventListener('keydown', (event) => this.key(event));
     for (const word of ['more', 'enough']) $(`query-${word}`).addEventListener('click', () => this.another(word));
-    $('said-clear').addEventListener('click', () => this.list.replaceChildren());
+    $('said-clear').addEventListener('click', () => this.clear());
+  }
+
+  clear() {
+    this.list.replaceChildren();
+    [this.letters, this.atEnd] = [0, true];
   }
 
   /** Lines of the log of a frame. */
   took({ log = [], new: begins }) {
     if (begins) this.newest = -1;
-    for (const { n, kind, text: words } of log) {
-      if (n <= this.newest) continue;
-      this.newest = n;
-      if (SHOWN.has(kind)) this.say(kind, words);
-    }
+    const fresh = log.filter(({ n, kind }) => n > this.newest && SHOWN.has(kind));
+    if (log.length) this.newest = Math.max(this.newest, log[log.length - 1].n);
+    this.write(fresh);
   }
 
   begins() {
@@ -43,15 +50,28 @@ export class Console {
   }
 
   say(kind, words) {
+    this.write([{ kind, text: words }]);
+  }
+
+  /** Adds rows at once: the page is laid out once, however many they are. */
+  write(entries) {
+    if (!entries.length) return;
     const { list } = this;
-    const atEnd = list.scrollTop + list.clientHeight >= list.scrollHeight - 24;
+    list.append(...entries.map(({ kind, text: words }) => this.row(kind, words)));
+    while (list.children.length > MOST.rows || (this.letters > MOST.letters && list.children.length > 1)) {
+      this.letters -= list.firstChild.textContent.length;
+      list.firstChild.remove();
+    }
+    if (this.atEnd) list.scrollTop = list.scrollHeight;
+    if (entries[entries.length - 1].kind === 'error' && this.line) this.was(this.line);
+  }
+
+  row(kind, words) {
     const place = /^(?:\S*\.pl:|line )(\d+)(?::\d+)?:\s*/.exec(words);
     const row = el('li', { 'data-kind': kind }, place ? words.slice(place[0].length) : words);
     if (place) this.link(row, Number(place[1]));
-    list.append(row);
-    while (list.children.length > MOST) list.firstChild.remove();
-    if (atEnd) list.scrollTop = list.scrollHeight;
-    if (kind === 'error' && this.line) this.was(this.line);
+    this.letters += row.textContent.length;
+    return row;
   }
 
   link(row, line) {

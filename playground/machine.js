@@ -2,7 +2,7 @@
 
 /** After so long, in milliseconds, another worker begins to compute beside one that does not
     answer STOP: what has not answered when that is done computes without a pause, and is ended. */
-const PATIENCE = 500;
+const PATIENCE = 60;
 /** So long nobody may ask for a frame, as a view that is not seen does not; then the page does. */
 const UNSEEN = 250;
 
@@ -17,6 +17,13 @@ export class Machine {
     /** What made the world as it is: lines that begin it again; and those that are not answered yet. */
     this.world = [];
     this.begun = [];
+    /** Where the robot stands; and how often STOP was pressed while nothing had answered. */
+    this.pose = null;
+    this.stops = 0;
+    this.beside = new Worker('patience.js');
+    this.beside.onmessage = ({ data }) => {
+      if (data === this.stops) this.fails('The program computed without a pause, so it was ended. Prolog was started again; your text is unchanged, and the robot stands where it was.');
+    };
     this.start();
     setInterval(() => {
       if (this.open && performance.now() - this.asked > UNSEEN) this.next(this.have);
@@ -38,6 +45,7 @@ export class Machine {
     const message = JSON.parse(data);
     if (message.type === 'frame') {
       this.have = message.have;
+      this.pose = message.robot?.true;
       this.frames += 1;
       if (this.frames <= this.before) message.program = { ...message.program, state: 'running' };
       this.on.took(message);
@@ -56,10 +64,11 @@ export class Machine {
     this.have = '';
     /** Frames that were asked for, and that came; those up to `before` do not know what was begun last. */
     [this.wanted, this.frames, this.before] = [0, 0, 0];
-    const { world } = this;
+    const { world, pose } = this;
     this.world = [];
     this.begun = [];
     for (const line of world) this.send(line);
+    if (pose) this.send(`place ${pose.join(' ')}`);
     this.on.begins();
     this.view?.begins();
   }
@@ -97,17 +106,15 @@ export class Machine {
   stop() {
     if (!this.open) return;
     this.send('stop');
-    this.answers();
-    this.late = setTimeout(() => {
-      this.beside = new Worker('patience.js');
-      this.beside.onmessage = () => this.fails('The program computed without a pause, so it was ended. Prolog was started again; your text is unchanged.');
-    }, PATIENCE);
+    if (this.late) return;
+    this.late = setTimeout(() => this.beside.postMessage(this.stops), PATIENCE);
   }
 
-  /** Nothing is waited for any more. */
+  /** STOP is waited for no more. */
   answers() {
     clearTimeout(this.late);
-    this.beside?.terminate();
+    this.late = null;
+    this.stops += 1;
   }
 
   /** Begins again with another worker. */

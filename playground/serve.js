@@ -4,6 +4,8 @@ import { startProlog } from './prolog.js';
 
 /** So long, in milliseconds, the program goes on before the page has a turn. */
 const TURN = 16;
+/** How many letters of what is written to user_error are kept until they are in the log. */
+const MOST = 1800;
 
 /**
  * @param {object} parts  those of startProlog
@@ -13,6 +15,7 @@ const TURN = 16;
 export async function serve(parts, say) {
   const lines = [];
   let printed = [];
+  let [letters, leftOut] = [0, 0];
   let wake = null;
   let began = 0;
   // setTimeout waits for 4 ms at least; a message comes at once.
@@ -34,17 +37,24 @@ export async function serve(parts, say) {
     ev3dev_turn: turn,
     ev3dev_due: () => performance.now() - began >= TURN,
     ev3dev_line: () => (lines.length ? turn(0) : new Promise((resolve) => { wake = resolve; })),
-    // What is written to user_output is seen by the library.
     ev3dev_printed: () => {
+      if (leftOut) printed.unshift(`(${leftOut} letters are left out here: the program prints faster than anybody can read)`);
       const text = printed.join('\n');
-      printed = [];
+      [printed, letters, leftOut] = [[], 0, 0];
       return text;
     },
   });
+  const written = (line) => {
+    printed.push(line.slice(-MOST));
+    letters += line.length;
+    leftOut += Math.max(0, line.length - MOST);
+    while (letters - leftOut > MOST && printed.length > 1) leftOut += printed.shift().length;
+  };
+  // What is written to user_output is seen by the library, and goes nowhere else.
   const { prolog } = await startProlog({
     ...parts,
     host: { say, hear: () => lines.shift() },
-    module: { ...parts.module, print: () => {}, printErr: (line) => printed.push(line), stdin: () => null },
+    module: { ...parts.module, stdout: () => {}, printErr: written, stdin: () => null },
   });
   const session = async () => {
     for (;;) await prolog.forEach('ev3dev_playground:session').catch(() => {});

@@ -90,6 +90,7 @@ begin :-
     watch_messages,
     asserta((user:message_hook(Message, Kind, Lines) :-
                  ev3dev_playground:of_program(Kind, Message, Lines))),
+    set_stream(user_output, buffer(line)),
     view_open_,
     working_directory(_, '/home/web_user'),
     ev3dev_sim:sim_start(room, [seed(1)]),

@@ -4,11 +4,12 @@ use ev3_os::Instant;
 use ev3_os::locked;
 use std::collections::VecDeque;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// How much is kept until somebody looks: texts, and the bytes after which one is full.
-const TEXTS: usize = 200;
+/// How much is kept until somebody looks: texts, and the bytes after which one is full. Of what a
+/// program prints without a pause nobody could read more.
+const TEXTS: usize = 40;
 const FULL: usize = 1500;
 
 /// What is written within such a time is one text.
@@ -22,6 +23,9 @@ static KEEPS: AtomicBool = AtomicBool::new(false);
 
 static PRINTED: Mutex<VecDeque<Printed>> = Mutex::new(VecDeque::new());
 
+/// How many letters were left out since somebody looked.
+static LEFT_OUT: AtomicUsize = AtomicUsize::new(0);
+
 struct Printed {
     time: f64,
     since: Instant,
@@ -30,7 +34,20 @@ struct Printed {
 
 impl Printed {
     fn is_complete(&self) -> bool {
-        self.bytes.ends_with(b"\n") || self.since.elapsed() > PATIENCE
+        self.bytes.ends_with(b"\n") || self.is_full() || self.since.elapsed() > PATIENCE
+    }
+
+    fn is_full(&self) -> bool {
+        self.bytes.len() >= FULL
+    }
+
+    /// Whether a line that is written now belongs to it.
+    fn takes(&self, line: usize, time: f64) -> bool {
+        if self.bytes.ends_with(b"\n") {
+            self.bytes.len() + line <= FULL && (self.time - time).abs() < TOGETHER
+        } else {
+            !self.is_full()
+        }
     }
 }
 
@@ -52,16 +69,37 @@ pub(super) fn written(bytes: &[u8]) {
     }
     let time = seconds();
     let mut printed = locked(&PRINTED);
-    if let Some(last) = printed.back_mut().filter(|last| last.bytes.len() < FULL) {
-        if !last.bytes.ends_with(b"\n") || (last.time - time).abs() < TOGETHER {
-            last.bytes.extend_from_slice(bytes);
-            return;
+    for line in bytes.split_inclusive(|byte| *byte == b'\n') {
+        let mut rest = line;
+        while !rest.is_empty() {
+            if !printed.back().is_some_and(|last| last.takes(rest.len(), time)) {
+                if printed.len() == TEXTS {
+                    let oldest = printed.pop_front().map_or(0, |text| letters(&text.bytes));
+                    LEFT_OUT.fetch_add(oldest, Ordering::Relaxed);
+                }
+                printed.push_back(Printed { time, since: Instant::now(), bytes: Vec::new() });
+            }
+            let Some(last) = printed.back_mut() else { return };
+            let room = FULL.saturating_sub(last.bytes.len()).max(4);
+            // Not within a letter
+            let at = (1..=room.min(rest.len())).rev();
+            let end = at
+                .into_iter()
+                .find(|end| rest.get(*end).is_none_or(|byte| begins(*byte)))
+                .unwrap_or(rest.len());
+            last.bytes.extend_from_slice(&rest[..end]);
+            rest = &rest[end..];
         }
     }
-    if printed.len() == TEXTS {
-        printed.pop_front();
-    }
-    printed.push_back(Printed { time, since: Instant::now(), bytes: bytes.to_vec() });
+}
+
+/// Whether this byte of UTF-8 begins a letter.
+const fn begins(byte: u8) -> bool {
+    byte & 0xc0 != 0x80
+}
+
+fn letters(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|byte| begins(**byte)).count()
 }
 
 /// Takes what was written, with the times; the beginning of a line only if there `is_all`.
@@ -69,7 +107,16 @@ pub(super) fn take(is_all: bool) -> (Vec<f64>, Vec<String>) {
     let mut printed = locked(&PRINTED);
     let ready = printed.iter().take_while(|each| is_all || each.is_complete()).count();
     let taken = printed.drain(..ready).map(|each| (each.time, plain(&each.bytes)));
-    taken.filter(|(_, text)| !text.is_empty()).unzip()
+    let (mut times, mut texts): (Vec<_>, Vec<_>) =
+        taken.filter(|(_, text)| !text.is_empty()).unzip();
+    if let Some(time) = times.first().copied() {
+        let left_out = LEFT_OUT.swap(0, Ordering::Relaxed);
+        if left_out > 0 {
+            times.insert(0, time);
+            texts.insert(0, format!("({left_out} letters of output are left out here: the program prints faster than anybody can read)"));
+        }
+    }
+    (times, texts)
 }
 
 /// The text without the terminal's colors, and without blanks at its end.

@@ -267,6 +267,48 @@ describe('the playground', () => {
   });
 });
 
+describe('STOP', () => {
+  const PROGRAMS = {
+    'prints in a loop': 'start :- writeln(abc), start.',
+    'prints in a failing loop': 'start :- repeat, writeln(abc), fail.',
+    'prints and computes': 'start :- numlist(1, 2000, L), print(L), nl, start.',
+    'writes to user_error': 'start :- format(user_error, "hello~n", []), start.',
+    'has 10 MB in one line': "start :- format(\"~*c\", [10000000, 0'x]), start.",
+    'fails in a loop': 'start :- repeat, fail.',
+    'sorts three million numbers': 'start :- numlist(1, 3000000, L), msort(L, _), start.',
+  };
+  for (const [what, text] of Object.entries(PROGRAMS)) {
+    test(`is for the moment in which the pointer goes down: a program that ${what}`, async () => {
+      const page = await visit();
+      await run(page, HEAD + text);
+      await until(async () => (await state(page)).program?.state === 'running', 'a program');
+      if (/^prints (in a|and)|^writes/.test(what)) await until(async () => (await state(page)).said.some(([, words]) => /abc|hello|1,2/.test(words)), 'output');
+      await page.hover('#run');
+      await page.mouse.down();
+      assert.notEqual(await page.$eval('#run', (button) => button.textContent), 'Stop');
+      await until(async () => (await state(page)).open && (await state(page)).program?.state === 'idle', 'the end of the program');
+      await page.mouse.up();
+      const now = await state(page);
+      assert.equal(now.program.state, 'idle', 'the click after it is no Run');
+      assert.equal(now.text, HEAD + text);
+      const letters = now.said.reduce((all, [, words]) => all + words.length, 0);
+      assert.ok(letters < 210_000, `${letters} letters`);
+      await ask(page, 'X is 6 * 7.');
+      await said(page, /X = 42/);
+      await page.end();
+    });
+  }
+
+  test('says how much of the output is left out', async () => {
+    const page = await visit();
+    await run(page, `${HEAD}start :- writeln(abc), start.\n`);
+    await said(page, /^\(\d+ letters of output are left out/);
+    await page.keyboard.press('Escape');
+    await idle(page);
+    await page.end();
+  });
+});
+
 describe('a link', () => {
   test('has the program and its world in it', async () => {
     const page = await visit();
