@@ -11,7 +11,10 @@
 :- use_module(library(ev3dev/time), [wait/1]).
 :- use_module('../prolog/ev3dev/private/native/native',
               [ view_hear_/3, view_held_/0, view_open_/0, view_pace_/1,
-                view_say_/2, view_step_/2, view_thread_/1 ]).
+                view_say_/2, view_step_/2, view_stop_motors_/0,
+                view_thread_/1 ]).
+:- use_module('../prolog/ev3dev/private/explain/last_goal',
+              [used_robot/0, watch_goals/1]).
 :- use_module('../prolog/ev3dev/private/view/goals', [goal_solve/4]).
 :- use_module('../prolog/ev3dev/private/view/jog', [jog_round/2]).
 :- use_module('../prolog/ev3dev/private/view/log',
@@ -51,7 +54,8 @@ the page is sent a frame. STOP is an abort at such a place.
     found/3,                            % Line, Kind, Text: of the program that is loaded
     loading/0,
     program_file/1,
-    raised/1.                           % Line: of the last error
+    raised/1,                           % Line: of the last error
+    tracing_goals/0.
 
 %   The page has no number: there is one.
 page(0).
@@ -167,6 +171,7 @@ program(Word, Name, Text) :-
         close(Out)),
     assertz(program_file(File)),
     retractall(found(_, _, _)),
+    retractall(tracing_goals),
     (   sub_string(Text, _, _, _, "library(ev3dev")
     ->  true
     ;   % Here it is there without that, elsewhere it is not.
@@ -253,10 +258,87 @@ entry(_, Goal) :-
 goal(Text, Number) :-
     page(Page),
     retractall(raised(_)),
-    running(goal_solve(Text, Page, Number, answered)),
+    watch_goals(Text),
+    running(traced(goal_solve(Text, Page, Number, answered))),
     (   retract(raised(Line))
     ->  view_say_(Page, json([type=raised, line=Line]))
     ;   true
+    ).
+
+%   Natively the toplevel says so.
+:- multifile ev3dev_view_goals:failed/1.
+
+ev3dev_view_goals:failed(Goal) :-
+    used_robot,
+    print_message(warning, ev3dev(failed(Goal))).
+
+%   A program may end itself, not Prolog.
+:- redefine_system_predicate(user:halt).
+:- redefine_system_predicate(user:halt(_)).
+
+user:halt :-
+    halt(0).
+
+user:halt(_) :-
+    ev3dev_playground:halted.
+
+halted :-
+    view_stop_motors_,
+    note(stop, "halt: the program ends, and all motors brake"),
+    abort.
+
+% ---------------- THE TRACER
+
+%   Nobody presses keys for it: it prints what the program calls, and goes on.
+%   After `trace.` alone it does so with the next goals, too.
+
+:- multifile user:prolog_trace_interception/4.
+:- dynamic user:prolog_trace_interception/4.
+
+user:prolog_trace_interception(Port, Frame, _, continue) :-
+    ev3dev_playground:traced(Port, Frame).
+
+traced(Goal) :-
+    (   tracing_goals
+    ->  trace
+    ;   true
+    ),
+    setup_call_cleanup(true, Goal, traced_so_far).
+
+traced_so_far :-
+    (   tracing
+    ->  nodebug,
+        (   tracing_goals
+        ->  true
+        ;   assertz(tracing_goals),
+            note(output, "The tracer prints each call of your program from \c
+                          now on. `notrace.` ends that.")
+        )
+    ;   nodebug,
+        retractall(tracing_goals)
+    ).
+
+traced(Port, Frame) :-
+    functor(Port, Name, _),
+    memberchk(Name-Word, [ call-"Call", exit-"Exit", fail-"Fail",
+                           redo-"Redo", exception-"Exception" ]),
+    prolog_frame_attribute(Frame, goal, Goal),
+    is_of_program(Frame),
+    !,
+    prolog_frame_attribute(Frame, level, Level),
+    ( Goal = user:Plain -> true ; strip_module(Goal, _, Plain) ),
+    format(user_output, "~s: (~d) ~p~n", [Word, Level, Plain]).
+traced(_, _).
+
+%   The program's own goals, and what it calls directly.
+is_of_program(Frame) :-
+    program_file(File),
+    (   prolog_frame_attribute(Frame, goal, Goal),
+        predicate_property(user:Goal, file(File))
+    ->  true
+    ;   prolog_frame_attribute(Frame, parent, Parent),
+        prolog_frame_attribute(Parent, clause, Clause),
+        clause_property(Clause, file(File))
     ).
 
 %   Where the last error was that was thrown, caught or not.

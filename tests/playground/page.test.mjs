@@ -202,6 +202,31 @@ describe('the playground', () => {
     await said(page, /^over/);
   });
 
+  test('halt ends the program, not Prolog; the tracer asks for no keys', async () => {
+    await page.click('#said-clear');
+    await ask(page, 'assertz(known(7)).');
+    await said(page, /^true/);
+    await run(page, `${HEAD}:- dynamic known/1.\nstart :- ${ROBOT}, go(30), halt.\n`);
+    await said(page, /^halt: the program ends/);
+    await idle(page);
+    await run(page, `${HEAD}start :- ${ROBOT}, trace, drive(1).\ndrive(N) :- N > 0, go_cm(30, 1), N1 is N-1, drive(N1).\ndrive(0).\n`);
+    await said(page, /Call: \(\d+\) drive\(1\)[^]*Exit: \(\d+\) 1>0[^]*Call: \(\d+\) go_cm/);
+    await said(page, /Fail: \(\d+\) 0>0/);
+    await said(page, /^The tracer prints/);
+    await ask(page, 'notrace.');
+    await idle(page);
+    await ask(page, 'leash(-all), trace, X = 5.');
+    await said(page, /X = 5/);
+    await ask(page, 'notrace.');
+    await idle(page);
+  });
+
+  test('says which goal has failed', async () => {
+    await run(page, `${HEAD}start :- ${ROBOT}, go_cm(20, 3), drive(3).\ndrive(N) :- N > 10, go_cm(30, 2).\n`);
+    await said(page, /^line 3 start failed; its last goal was 3>10, in drive\/1/);
+    await idle(page);
+  });
+
   test('goes on after engines, branches and output that is caught', async () => {
     await page.click('#said-clear');
     await ask(page, 'engine_create(L, (wait(0.2), numlist(1, 30000, L)), E), engine_next(E, [One|_]), writeln(engine(One)).');

@@ -147,7 +147,8 @@ watch(Instruction, Clause, PC) :-
         ;   set(Clause, PC, nothing, Tail)
         )
     ;   compound(Instruction),
-        arg(1, Instruction, Module:Name/Arity)
+        arg(1, Instruction, Called),
+        qualified(Called, Module:Name/Arity)
     ->  functor(Head, Name, Arity),
         set(Clause, PC, Module:Head, Tail)
     ;   set(Clause, PC, none, Tail)
@@ -204,10 +205,16 @@ move(l_void(To), To-value(_)).
 
 depart(Clause, PC, At, Called) :-
     '$fetch_vm'(Clause, PC, Next, Instruction),
-    (   Instruction = i_depart(Called)
+    (   Instruction = i_depart(Called0),
+        qualified(Called0, Called)
     ->  At = PC
     ;   depart(Clause, Next, At, Called)
     ).
+
+%   Since version 10.1 the module user is not named.
+
+qualified(Module:Name/Arity, Module:Name/Arity).
+qualified(Name/Arity, user:Name/Arity).
 
 %!  watched(?Clause, ?PC, -Called, -Tail) is nondet.
 %

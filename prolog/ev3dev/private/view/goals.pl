@@ -20,6 +20,10 @@ it prints and its answers. There is nothing for it to read.
 
 :- dynamic running/3.                   % Page, Number, Thread
 
+%   failed(Goal): what else is to be said of a goal that is false.
+:- multifile failed/1.
+:- dynamic failed/1.
+
 %!  goal_line(+Word, +Rest, +Page, -Refused) is semidet.
 %
 %   Start a goal, ask for its next answer, or end it. A new goal ends one that
@@ -165,7 +169,8 @@ solve_(Text, Number, Page, In, Next) :-
     ->  true
     ;   part_ends(Me),
         say_of_input(In),
-        answer(Page, Number, false, "false")
+        answer(Page, Number, false, "false"),
+        forall(failed(Goal), true)
     ).
 
 solution(Goal, Last) :-
