@@ -134,7 +134,7 @@ test(one_that_goes_wrong_on_its_way, Points == 10) :-
     assertion(sub_atom(Reason, _, _, _, 'nothing/0')).
 test(why_it_has_no_points, true(Reasons = [ 'It did not use the robot.',
                                             'Stopped after 1 s of processor time (robot time 0.0 s).',
-                                            'Line 2, column 11: Operator expected.' ])) :-
+                                            'Line 2, column 11: Operator expected: a comma may be missing between a and b.' ])) :-
     reason([halts_at_once, does_not_end, does_not_parse], Reasons).
 test(what_is_forbidden, Points-Reason == 0-'Line 2: secret/1 may not be used here.') :-
     earns([ ":- use_module(library(ev3dev)).",
@@ -236,7 +236,7 @@ test(reports, true) :-
                   read_report(Out, 'results.json', Json),
                   read_report(Out, 'gradescope/honest.json', Gradescope) )),
     assertion(\+ sub_string(Index, _, _, _, "<b>&")),
-    assertion(sub_string(Index, _, _, _, "Line 2, column 11: Operator expected.")),
+    assertion(sub_string(Index, _, _, _, "Line 2, column 11: Operator expected: a comma may be missing between a and b.")),
     assertion(sub_string(Index, _, _, _, "3 programs, 6.67 points in the mean")),
     assertion(sub_string(Page, _, _, _, "touches &lt;nothing&gt;")),
     assertion(sub_string(Page, _, _, _, "<svg ")),

@@ -12,7 +12,8 @@ says which one to load. One that calls a predicate of the pack with another
 number of arguments says what the arguments are. One that calls a predicate
 that is called otherwise in the pack says so. An error in a program does the
 same. Prolog would offer `ev3dev_sim:sim_start(room)` or another predicate as
-a correction, or say that the procedure is unknown, and list modules.
+a correction, or say that the procedure is unknown, and list modules. Syntax
+errors come with the advice of `help/syntax_errors.pl`.
 
 Prolog's own offer to correct a name that is misspelt stays.
 
@@ -66,10 +67,10 @@ forgotten(Query, Predicate) :-
     ->  fail
     ;   not_loaded(Name, _, _)
     ->  true
-    ;   known_mistake(Predicate)
+    ;   is_known(Predicate)
     ->  true
     ;   \+ is_corrected(Goal),
-        meant(Predicate, _)
+        ( meant(Predicate, _) ; misspelt(Goal, _) )
     ),
     !.
 
@@ -120,12 +121,20 @@ is_corrected(Goal) :-
 %!  known_mistake(+Predicate) is semidet.
 %
 %   True if Predicate is one of a library that is not loaded, or is one of the
-%   pack but for the number of its arguments.
+%   pack but for its spelling or the number of its arguments.
 
-known_mistake(Predicate) :-
+known_mistake(Name/Arity) :-
+    (   is_known(Name/Arity)
+    ->  true
+    ;   functor(Goal, Name, Arity),
+        misspelt(Goal, _)
+    ->  true
+    ).
+
+is_known(Predicate) :-
     library_of(Predicate, _),
     !.
-known_mistake(Name/_) :-
+is_known(Name/_) :-
     ask(signatures, arities(Name, _)).
 
 %!  form_of(+Predicate, -Form) is semidet.
@@ -182,53 +191,17 @@ prolog:message(error(existence_error(procedure, Predicate0), Context)) -->
     [ 'there is no ~q~w. ~w:'-[Predicate, Where, Said] ],
     forms(Predicates).
 
-prolog:message(error(syntax_error(operator_expected), Where)) -->
+prolog:message(error(syntax_error(Kind), Where)) -->
     { nonvar(Where),
-      text_of(Where, Text, Place),
-      operator_of(Library, Operator, Type, Clue),
-      \+ current_op(_, Type, user:Operator),
-      sub_string(Text, _, _, _, Operator),
-      sub_string(Text, _, _, _, Clue)
+      ask(syntax_errors, syntax_advice(Kind, Where, Lines))
     },
-    [ '~wOperator expected: ~w is one of library(ev3dev/~w), '-
-      [Place, Operator, Library],
-      'which is not loaded: first'-[], nl,
-      '  use_module(library(ev3dev/~w)).'-[Library]
-    ].
-
-prolog:message(error(syntax_error(operator_expected), Where)) -->
-    { nonvar(Where),
-      text_of(Where, Text, Place),
-      column(Where, Column),
-      sub_string(Text, 0, Column, _, Before),
-      sub_string(Text, Column, _, 0, After),
-      parenthesis(After, Before, Advice)
+    Lines.
+prolog:message(error(instantiation_error, Context)) -->
+    { nonvar(Context),
+      Context = context(system:'$record_clause'/_, _)
     },
-    [ '~wOperator expected: ~w'-[Place, Advice] ].
-
-operator_of(rules, ~>, xfx, ~>).
-operator_of(golog_classic, #, xfy, 'proc(').
-
-%   In the first line of a clause, Prolog counts one more.
-
-column(string(_, Column), Column).
-column(file(_, _, Column0, _), Column) :-
-    between(0, 1, More),
-    Column is Column0-More.
-
-%   go (20), and go(20)(30)
-
-parenthesis(After, Before, Advice) :-
-    split_string(After, "", " \t\n", [Open]),
-    Open \== After,
-    string_concat("(", _, Open),
-    split_string(Before, "(), \t\n", "", Words),
-    append(_, [Name], Words),
-    sub_string(Name, 0, 1, _, First),
-    char_type(First, lower),
-    format(atom(Advice), 'write ~w( without a space', [Name]).
-parenthesis(After, _, 'a name takes one pair of parentheses') :-
-    string_concat(")(", _, After).
+    [ 'a clause begins with a variable: names of predicates begin with a \c
+       small letter'-[] ].
 
 %   Prolog found an error of syntax in File at Line when it was loaded.
 
@@ -315,32 +288,6 @@ forms([Predicate0|Predicates]) -->
     },
     [ nl, '  ~w'-[Shown] ],
     forms(Predicates).
-
-text_of(string(Text, _), Text, '').
-text_of(file(File, Line, Column, _), Text, Place) :-
-    catch(setup_call_cleanup(open(File, read, In),
-                             nth_line(Line, In, Text),
-                             close(In)),
-          error(_, _), fail),
-    format(atom(Place), '~w:~w:~w: ', [File, Line, Column]).
-
-%   The term that is wrong may go on for some lines.
-
-nth_line(Line, In, Text) :-
-    forall(between(2, Line, _), skip(In, 0'\n)),
-    read_pending(10, In, Lines),
-    atomic_list_concat(Lines, '\n', Text).
-
-read_pending(Count, In, Lines) :-
-    (   Count > 0,
-        \+ at_end_of_stream(In)
-    ->  read_line_to_codes(In, Codes),
-        atom_codes(Line, Codes),
-        Lines = [Line|Lines1],
-        Count1 is Count - 1,
-        read_pending(Count1, In, Lines1)
-    ;   Lines = []
-    ).
 
 is_plain(Context) :-
     (   var(Context)
