@@ -103,18 +103,6 @@
             views_obstacles_/3,         % +Views, +Facts, -Polygons
             views_step_/5,              % +Views, +Facts, +way, +Options, ..
             steer_/5,                   % +Way, +pose, +Before, -Gone, ..
-            % src/none.rs
-            view_serve_/5,              % _, _, _, _, _
-            view_visit_/1,              % _
-            view_leave_/1,              % _
-            view_end_/2,                % _, _
-            view_shut_/1,               % _
-            sim_fence_open_/1,          % _
-            sim_fence_join_/1,          % _
-            sim_fence_serve_/3,         % _, _, _
-            sim_fence_silent_/0,
-            process_usage_/5,           % _, _, _, _, _
-            sim_fence_close_/0,
             % src/planner.rs
             planner_new_/3,             % +Task, +Cheapest, -Planner
             planner_work_/4,            % +Planner, +Steps, -Progress, -States
@@ -150,6 +138,13 @@
             % src/sim/buttons.rs
             sim_key_/2,                 % +Key, +IsPress
             sim_plan_key_/3,            % +Key, +After, +For
+            % src/sim/fence.rs
+            sim_fence_open_/1,          % +Path
+            sim_fence_serve_/3,         % +Until, +Wall, -State
+            sim_fence_silent_/0,
+            process_usage_/5,           % +Process, -Seconds, -Rest, ..
+            sim_fence_close_/0,
+            sim_fence_join_/1,          % +Path
             % src/sim/limit.rs
             limit_call_/2,              % +Id, :Goal
             limit_insist_/4,            % +Id, +Thread, :Goal, +Ball
@@ -208,8 +203,13 @@
             serve_at_prompt_/0,
             slices_/1,                  % -Count
             % src/view/door.rs
+            view_serve_/5,              % +Address, +Port, +Token, +Files, ..
+            view_visit_/1,              % -Visit
             view_hear_/3,               % +Page, +Seconds, -Line
             view_say_/2,                % +Page, +Json
+            view_end_/2,                % +Page, +Code
+            view_leave_/1,              % +Page
+            view_shut_/1,               % +Bye
             % src/view/frame.rs
             view_frame_/5,              % +Page, +Have, +State, +Rate, +Goals
             view_source_/1,             % -Source
