@@ -1,16 +1,34 @@
 //! Somebody watches the program: `prolog/ev3dev/view.pl`.
 use ev3_motion::Pose;
-use ev3_os::locked;
+use ev3_os::{Instant, locked};
 use ev3_sim::is_outside;
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard};
+use std::time::Duration;
 use swipl::fli::this_thread;
 
 static IS_WATCHED: AtomicBool = AtomicBool::new(false);
 
 /// Counts the films: each tree, and each return to a snapshot, begins one.
 static FILMS: AtomicU32 = AtomicU32::new(1);
+
+/// When a page asked for a frame last, for how long that counts, and the film that it had drawn.
+static LOOK: Mutex<Option<(Instant, Duration, u64)>> = Mutex::new(None);
+
+/// A page that has not asked for so long shows nothing.
+pub(crate) const LOOKS: Duration = Duration::from_secs(3);
+
+/// A page that has drawn a frame of this film asks for the next one, or will within a time.
+pub(crate) fn look(film: u64, time: Duration) {
+    *locked(&LOOK) = Some((Instant::now(), time, film));
+}
+
+/// The film that a page draws, if there is one.
+pub(crate) fn drawn_film() -> Option<u64> {
+    let look = *locked(&LOOK);
+    look.filter(|(at, time, _)| at.elapsed() < *time).map(|(_, _, film)| film)
+}
 
 /// What is seen of a brick.
 pub(crate) struct Watched {

@@ -9,8 +9,9 @@ use std::sync::{Mutex, MutexGuard};
 const LINES: usize = 500;
 const VALUES: usize = 8192;
 
-/// How many lines a frame has at most.
+/// How many lines a frame has at most, and how many bytes in all: the newest.
 const AT_ONCE: usize = 200;
+const BYTES_AT_ONCE: usize = 20_000;
 
 /// The longest text of a line, in letters.
 const LONGEST: usize = 2000;
@@ -78,6 +79,11 @@ impl Notes {
         }
     }
 
+    /// Counts of the members, lines and values so far.
+    pub(super) fn counts(&self) -> [u64; 3] {
+        [self.stamp, self.logged, self.valued]
+    }
+
     /// Writes the members that have changed since a stamp; returns the present one.
     pub(super) fn report_kept(&self, json: &mut Json, since: u64) -> u64 {
         for (name, (text, stamp)) in &self.kept {
@@ -88,19 +94,20 @@ impl Notes {
         self.stamp
     }
 
-    /// Writes the lines after a number of them; returns how many there were then.
+    /// Writes the newest lines after a number of them; returns how many there were then.
     pub(super) fn report_log(&self, json: &mut Json, since: u64) -> u64 {
-        let mut new = self.log.iter().filter(|entry| entry.n > since).take(AT_ONCE).peekable();
-        let mut last = self.logged;
-        if new.peek().is_some() {
+        let mut bytes = 0;
+        let mut fits = |entry: &&Entry| {
+            bytes += entry.text.len();
+            entry.n > since && bytes <= BYTES_AT_ONCE
+        };
+        let new = self.log.iter().rev().take(AT_ONCE).take_while(&mut fits).count();
+        if new > 0 {
             json.key("log").array(|json| {
-                for entry in new {
-                    entry.report(json);
-                    last = entry.n;
-                }
+                self.log.range(self.log.len() - new..).for_each(|entry| entry.report(json));
             });
         }
-        last
+        self.logged
     }
 
     /// Writes the values after a number of them; returns how many there were then.

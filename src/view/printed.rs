@@ -7,9 +7,10 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// How much is kept until somebody looks: texts, and the bytes after which one is full. Of what a
-/// program prints without a pause nobody could read more.
-const TEXTS: usize = 40;
+/// How much is kept until somebody looks: texts, the bytes of all, and those after which one is
+/// full. Of what a program prints without a pause nobody could read more.
+const TEXTS: usize = 200;
+const BYTES: usize = 12 * FULL;
 const FULL: usize = 1500;
 
 /// What is written within such a time is one text.
@@ -73,7 +74,7 @@ pub(super) fn written(bytes: &[u8]) {
         let mut rest = line;
         while !rest.is_empty() {
             if !printed.back().is_some_and(|last| last.takes(rest.len(), time)) {
-                if printed.len() == TEXTS {
+                while printed.len() == TEXTS || bytes_of(&printed) > BYTES {
                     let oldest = printed.pop_front().map_or(0, |text| letters(&text.bytes));
                     LEFT_OUT.fetch_add(oldest, Ordering::Relaxed);
                 }
@@ -96,6 +97,10 @@ pub(super) fn written(bytes: &[u8]) {
 /// Whether this byte of UTF-8 begins a letter.
 const fn begins(byte: u8) -> bool {
     byte & 0xc0 != 0x80
+}
+
+fn bytes_of(printed: &VecDeque<Printed>) -> usize {
+    printed.iter().map(|text| text.bytes.len()).sum()
 }
 
 fn letters(bytes: &[u8]) -> usize {

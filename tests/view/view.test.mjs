@@ -28,7 +28,7 @@ const free = (page) => async () => {
 const IN_FIREFOX = new RegExp(['is drawn where', 'is seen to move', 'is dragged by', 'shows keys', 'lights and screen', 'loses a wire',
   'boxes are added', 'key Delete', 'is measured', 'is followed', 'by the arrow keys', 'beside it', 'by Escape', 'by steps', 'never ends$', 'alone, pressed',
   'a program names', 'held, read off', 'what the program prints', 'chosen by part', 'as at the toplevel', 'show that they run', 'axe on a screen, light', 'axe on a phone, dark',
-  'by its files', 'a foreign Host', 'another token'].join('|'));
+  'takes STOP when', 'draws no picture', 'by its files', 'a foreign Host', 'another token'].join('|'));
 
 let wanted = [];
 function test(name, act) {
@@ -59,6 +59,22 @@ function group(name, queries, options, tests) {
 
 const TWO = ['use_module(library(ev3dev/bricks))',
   'sim_start([start(anna, 0, 0, 0), start(bob, 0, 60, 180)], [clock(realtime), robots([anna-default, bob-default])]), use_brick(anna)'];
+
+const SIX = ['eins', 'zwei', 'drei', 'vier', 'fuenf', 'ein_sehr_langer_name'];
+
+group('a match of several robots', ['use_module(library(ev3dev/bricks))'], '', (it) => {
+  test('is seen from its first picture on, though its clock is virtual', async () => {
+    const facts = ['bounds(0, 0, 400, 300)', ...SIX.map((name, i) => `start(${name}, ${60 + 55 * i}, 80, 0)`)];
+    it.session.type(`sim_start([${facts}], [clock(virtual), robots([${SIX.map((name) => `${name}-default`)}])]), bricks_do((set_robot(5.6, 10.6, outB, outC), go_cm(30, 40)))`);
+    const first = await shows(it.page, (s) => s.source === 'sim' && s.robot.true, 'the first robot');
+    assert.equal(first.seen, 0, 'when it begins');
+    assert.deepEqual([first.bricks.names, first.bricks.shown], [[...SIX], 'eins']);
+    assert.deepEqual(first.others.map(({ name }) => name), SIX.slice(1));
+    assert.equal(first.clock.pace, 'x1');
+    await shows(it.page, (s) => near(s.robot.true[1], 120, 1) && s.others.every((other) => near(other.y, 120, 1)), 'the end of all');
+    await it.session.ask(`forall(member(Name, [${SIX}]), brick_close(Name))`);
+  });
+});
 
 group('one of several robots', TWO, '', (it) => {
   const names = () => it.page.$$eval('#bricks button', (all) => all.map((button) => `${button.textContent} ${button.ariaPressed}`));
@@ -1316,6 +1332,92 @@ group('panels', ROOM, '', (it) => {
     assert.ok(await page.evaluate(() => document.body.scrollHeight) < whole - 800);
     await page.evaluate(() => localStorage.removeItem('ev3dev-panels'));
     await free(page)();
+  });
+});
+
+group('a program that prints without end', ROOM, 'goals(true)', (it) => {
+  /** How many letters the log gets at once, at most: a page has to lay them out. */
+  const AT_ONCE = 24_000;
+  const type = async (goal) => {
+    await it.page.evaluate(() => {
+      window.most = 0;
+      new MutationObserver((changes) => {
+        const added = changes.flatMap(({ addedNodes }) => [...addedNodes]);
+        window.most = Math.max(window.most, added.reduce((sum, node) => sum + node.textContent.length, 0));
+      }).observe(document.getElementById('log'), { childList: true });
+    });
+    await it.page.type('#goal-text', goal);
+    await it.page.keyboard.press('Enter');
+  };
+  const isLeftOut = (s) => s.log.some(({ text }) => /^\(\d+ letters of output are left out here/.test(text));
+  const most = () => it.page.evaluate(() => window.most);
+
+  test('takes STOP when the finger comes down, and says what the log has not', async () => {
+    await type('repeat, writeln(abc), fail.');
+    const from = (await shows(it.page, (s) => s.program.state === 'running' && isLeftOut(s), 'output')).frames;
+    await shows(it.page, (s) => s.frames > from + 10, 'more frames');
+    assert.ok(await most() < AT_ONCE, `${await most()} letters at once`);
+    const sent = await it.page.evaluate(() => {
+      const lines = [];
+      const { send } = WebSocket.prototype;
+      WebSocket.prototype.send = function keep(line) {
+        lines.push(line);
+        send.call(this, line);
+      };
+      document.getElementById('stop').dispatchEvent(new PointerEvent('pointerdown', { bubbles: true, button: 0 }));
+      WebSocket.prototype.send = send;
+      return lines;
+    });
+    assert.deepEqual(sent, ['stop']);
+    await shows(it.page, (s) => s.program.state === 'idle' && s.log.some(({ kind }) => kind === 'stop'), 'its end');
+  });
+
+  test('may print ten million letters in one line', async () => {
+    await type('length(L, 1000000), maplist(=(abcdefghij), L), atomic_list_concat(L, A), write(A), nl, write(after).');
+    const { log } = await shows(it.page, (s) => s.program.state === 'idle' && s.log.some(({ text }) => text.endsWith('after')), 'its end');
+    assert.ok(isLeftOut({ log: log.slice(log.findIndex(({ text }) => text.startsWith('?- length'))) }));
+    assert.ok(await most() < AT_ONCE, `${await most()} letters at once`);
+  });
+
+  test('says how many lines are left out, and that the log has its end only', async () => {
+    await it.session.ask('forall(between(1, 5, _), ( forall(between(1, 150, I), view_mark(I)), wait(0.2) ))');
+    await it.session.ask('forall(between(1, 450, I), view_mark(I))');
+    await shows(it.page, (s) => s.log.at(-1).text === '450', 'the last mark');
+    const rows = await it.page.$$eval('#log li', (all) => all.map((row) => row.innerText.trim()));
+    assert.equal(rows[0], 'The log shows the last 300 lines. Earlier ones are left out.');
+    assert.equal(rows.length, 301);
+    assert.ok(rows.some((row) => /^\d+ lines are left out here\.$/.test(row)), rows.join('|'));
+  });
+});
+
+group('a page on which nothing changes', ROOM, '', (it) => {
+  /** Waits until nothing is drawn any more. */
+  const settled = async () => {
+    let last = await state(it.page);
+    return shows(it.page, (s) => {
+      if (s.frames < last.frames + 2) return false;
+      const isSame = s.drawings === last.drawings;
+      last = s;
+      return isSame;
+    }, 'a picture that stays');
+  };
+
+  test('draws no picture, and asks seldom', async () => {
+    const before = await settled();
+    const later = await shows(it.page, (s) => s.frames >= before.frames + 3, 'frames');
+    assert.equal(later.drawings, before.drawings);
+    assert.ok(later.time - before.time > 0.3 * (later.frames - before.frames), `${later.time - before.time} s of ${later.frames - before.frames} frames`);
+  });
+
+  test('draws what moves, but what stands once', async () => {
+    const before = await settled();
+    await it.session.ask('go(20), wait(1), stop');
+    const later = await shows(it.page, (s) => s.robot.true[0] > before.robot.true[0] + 5 && !s.robot.moving, 'the way');
+    assert.ok(later.drawings > before.drawings + 3);
+    assert.deepEqual(later.layers, before.layers);
+    await it.page.keyboard.press('+');
+    await shows(it.page, (s) => s.layers.floor === before.layers.floor + 1 && s.layers.items === before.layers.items + 1, 'all, larger');
+    await it.page.keyboard.press('0');
   });
 });
 

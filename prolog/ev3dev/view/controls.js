@@ -20,7 +20,9 @@ export class Hands {
       return [pace, button];
     }));
     $('speeds').append(...this.paces.values());
-    $('stop').addEventListener('click', () => this.stop());
+    // At once, and not when the finger is lifted; a click without a finger is a key's.
+    $('stop').addEventListener('pointerdown', (event) => event.button === 0 && this.stop());
+    $('stop').addEventListener('click', (event) => event.detail === 0 && this.stop());
     $('reset').addEventListener('click', () => this.reset());
     $('pause').addEventListener('click', () => this.pause());
     $('step').addEventListener('click', () => wire.send('step'));

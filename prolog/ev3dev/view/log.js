@@ -5,6 +5,7 @@ import { $, clock, download, el, pressed, text, toggle } from './dom.js';
 
 const KINDS = [['command', 'Commands'], ['rule', 'Rules'], ['golog', 'Golog'], ['output', 'Output'], ['goal', 'Goals'], ['mark', 'Marks'], ['warning', 'Warnings']];
 const MOST = 300;
+const EARLIER = `The log shows the last ${MOST} lines. Earlier ones are left out.`;
 /** Equal lines that come in turn, as those of two wheels, become one, at the time of the first:
     each at most so many lines and so many seconds after the one before. */
 const LOOK_BACK = 4;
@@ -28,6 +29,7 @@ export class Log {
     }));
     $('log-kinds').append(...this.chips.values());
     this.empty = el('li', { class: 'none' }, el('span'), el('span'), el('span', { class: 'text' }, 'Nothing has happened yet.'));
+    this.earlier = el('li', { class: 'none begin' }, el('span'), el('span'), el('span', { class: 'text' }, EARLIER));
     this.clear();
     $('log-about').addEventListener('change', () => this.filter());
     this.list.addEventListener('click', (event) => {
@@ -63,6 +65,7 @@ export class Log {
     const { frame } = model;
     if (frame.new && this.rows.length) this.begins();
     if (frame.goals !== undefined && $('goal').hidden === Boolean(frame.goals)) $('goal').hidden = !frame.goals;
+    if (model.missed > 0) this.add([{ kind: 'begin', text: `${model.missed} lines are left out here.` }]);
     if (model.fresh.length) this.add(model.fresh.map((line) => ({ ...line, key: similar(line) })));
   }
 
@@ -88,7 +91,9 @@ export class Log {
         this.fill(same, line);
       } else this.rows.push(this.row(line));
     }
-    for (const row of this.rows.splice(0, Math.max(0, this.rows.length - MOST))) row.box.remove();
+    const gone = this.rows.splice(0, Math.max(0, this.rows.length - MOST));
+    for (const row of gone) row.box.remove();
+    if (gone.length && !this.earlier.isConnected) list.prepend(this.earlier);
     if (atEnd) list.scrollTop = list.scrollHeight;
   }
 

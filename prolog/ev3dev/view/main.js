@@ -28,7 +28,29 @@ let animation = 0;
 let arrived = 0;
 let interval = 50;
 
-const send = (line) => wire.send(line);
+/** If a frame with no news comes sooner than this, in ms, the server does not wait for news: it is
+    asked again after some time, or when a hand does something. */
+const SOON = 200;
+const LATER = 1000;
+let asked = 0;
+let later = 0;
+
+function ask(now = false) {
+  clearTimeout(later);
+  later = 0;
+  if (!now && model.frame?.calm && performance.now() - asked < SOON) later = setTimeout(ask, LATER, true);
+  else {
+    asked = performance.now();
+    wire.next();
+  }
+}
+
+function send(line) {
+  const isSent = wire.send(line);
+  if (later) ask(true);
+  return isSent;
+}
+
 const world = new World(send);
 const charts = new Charts(() => model.frame && ports.take(model));
 const ports = new Ports(send, (column) => charts.plot(column), (column) => charts.plotted(column));
@@ -36,7 +58,7 @@ const brick = new Brick(send);
 const program = new Program(send);
 const log = new Log(send);
 const wire = new Wire({ state, frame, reply });
-const hands = new Hands(wire, world, charts, log, ports);
+const hands = new Hands({ send, stop: () => wire.stop() }, world, charts, log, ports);
 const timeline = new Timeline(show);
 const editor = new Editor(send, world, edited);
 /** Those that go back with the timeline, and those that are always of now. */
@@ -118,8 +140,8 @@ function draw(time) {
   const more = world.animate(time);
   if (waiting) {
     waiting = false;
-    charts.draw();
-    wire.next();
+    if (!model.frame.calm || !model.frame.clock.stands) charts.draw();
+    ask();
   }
   if (more && !animation) animation = requestAnimationFrame(draw);
 }
@@ -192,6 +214,8 @@ function shown() {
   return {
     phase,
     frames: model.count,
+    drawings: world.drawings,
+    layers: Object.fromEntries(Object.entries(world.layers ?? {}).map(([name, { drawn }]) => [name, drawn])),
     age: model.age,
     source: now?.source ?? null,
     time: now?.clock?.time ?? null,
@@ -222,6 +246,7 @@ function shown() {
     driving: hands.driving === true,
     past: timeline.past && { t: timeline.t, robot: timeline.past.frame.robot, items: timeline.past.world?.items ?? [], ports: timeline.past.frame.ports },
     recorded: timeline.kept.length,
+    seen: timeline.kept[0]?.time ?? null,
     active: model.active ?? [],
     edits: editor.open ? { draft: editor.draft, selected: editor.thing(), tool: editor.tool, undo: editor.past.length, redo: editor.future.length, waits: editor.pending.length, folder: editor.folder } : null,
     selected: world.selected === null ? null : world.selected.kind ?? world.selected,

@@ -2,7 +2,7 @@
 // the samples since the simulation began.
 
 /** What each frame has, or adds to what was there. All other keys are kept between frames. */
-const PASSING = new Set(['type', 'have', 'new', 'rate', 'source', 'tree', 'goals', 'clock', 'program', 'robot', 'see', 'beams', 'others', 'ports', 'brick', 'samples', 'values', 'log']);
+const PASSING = new Set(['type', 'have', 'new', 'calm', 'rate', 'source', 'tree', 'goals', 'clock', 'program', 'robot', 'see', 'beams', 'others', 'ports', 'brick', 'samples', 'values', 'log']);
 
 /** All kept keys have come. */
 export const ALL = { has: () => true };
@@ -41,7 +41,9 @@ export class Model {
     this.count += 1;
     if (frame.samples) this.append(frame.samples);
     for (const [name, time, value] of frame.values ?? []) this.value(name, time, value);
-    this.fresh = (frame.log ?? []).filter((line) => !(line.n <= this.newest));
+    const { newest } = this;
+    this.fresh = (frame.log ?? []).filter((line) => !(line.n <= newest));
+    this.missed = newest >= 0 && this.fresh.length ? this.fresh[0].n - newest - 1 : 0;
     if (this.fresh.length) {
       this.log.push(...this.fresh);
       this.log.splice(0, Math.max(0, this.log.length - MOST_LOG));

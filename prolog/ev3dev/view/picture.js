@@ -54,22 +54,27 @@ export class Picture extends Camera {
   draw() {
     if (!this.model?.frame || !this.width) return;
     const { context: c, camera, ratio } = this;
+    this.drawings += 1;
     const robot = this.now ?? { true: this.model.frame.robot?.true, pose: this.model.frame.robot?.believed?.pose };
     if (this.following && (robot.true || robot.pose)) [camera.x, camera.y] = robot.true ?? robot.pose;
-    c.setTransform(1, 0, 0, 1, 0, 0);
-    c.fillStyle = this.paint.outside;
-    c.fillRect(0, 0, this.canvas.width, this.canvas.height);
     const s = camera.scale * ratio;
-    c.setTransform(s, 0, 0, -s, (this.width / 2) * ratio - camera.x * s, (this.height / 2) * ratio + camera.y * s);
     this.dot = 1 / camera.scale;
-    c.lineJoin = 'round';
-    c.lineCap = 'round';
-    this.drawFloor(c);
+    this.placed = [s, 0, 0, -s, (this.width / 2) * ratio - camera.x * s, (this.height / 2) * ratio + camera.y * s];
+    const items = this.model.world?.items ?? [];
+    const moving = items.filter((item) => this.moves(item));
+    this.layer('floor', c, [this.shown.floor], (layer) => {
+      layer.resetTransform();
+      layer.fillStyle = this.paint.outside;
+      layer.fillRect(0, 0, this.canvas.width, this.canvas.height);
+      layer.setTransform(...this.placed);
+      this.drawFloor(layer);
+    });
     if (this.shown.map && this.model.map) this.drawRaster(c, this.model.map, this.paint.ink);
     if (this.shown.particles && this.model.belief) this.drawRaster(c, this.model.belief, this.paint.red);
     if (this.shown.map && this.model.grid) this.drawGrid(c, this.model.grid);
     if (this.shown.sensors) this.drawSeen(c, false);
-    this.drawItems(c);
+    if (items.length) this.layer('items', c, moving, (layer) => this.drawItems(layer, items.filter((item) => !moving.includes(item))));
+    this.drawItems(c, [...moving, ...this.model.frame.others ?? []]);
     if (this.shown.trail) this.drawTrails(c, robot);
     if (this.shown.path && this.model.path) this.drawPath(c, this.model.path);
     if (this.shown.sensors) this.drawSeen(c, true);
@@ -77,6 +82,31 @@ export class Picture extends Camera {
     this.drawRobots(c, robot);
     this.drawHands(c);
     this.drawn(robot);
+  }
+
+  /** What stands is drawn once, in a canvas of its own: again only if the world, the view of it or
+      something in `keys` is another one. */
+  layer(name, c, keys, draw) {
+    const { width, height } = this.canvas;
+    const layer = (this.layers ??= {})[name] ??= { context: document.createElement('canvas').getContext('2d'), keys: [] };
+    const now = [this.model.world, this.paint, width, height, ...this.placed, ...keys];
+    if (now.length !== layer.keys.length || now.some((key, i) => key !== layer.keys[i])) {
+      layer.keys = now;
+      layer.drawn = (layer.drawn ?? 0) + 1;
+      Object.assign(layer.context.canvas, { width, height });
+      Object.assign(layer.context, { lineJoin: 'round', lineCap: 'round' });
+      layer.context.setTransform(...this.placed);
+      draw(layer.context);
+    }
+    c.resetTransform();
+    c.drawImage(layer.context.canvas, 0, 0);
+    c.setTransform(...this.placed);
+    c.lineJoin = c.lineCap = 'round';
+  }
+
+  /** A thing that does not stand: it is held, chosen, or has a port. */
+  moves(item) {
+    return item.port !== undefined || item.id === this.selected?.id || (this.drag?.kind === 'item' && this.drag.item.id === item.id);
   }
 
   drawFloor(c) {
@@ -117,29 +147,33 @@ export class Picture extends Camera {
     return path;
   }
 
-  drawItems(c) {
-    const { frame, world } = this.model;
-    const others = frame.others ?? [];
-    for (const item of [...(world?.items ?? []), ...others]) {
+  /** Things of one color are one path, with one shadow. */
+  drawItems(c, items) {
+    const paths = new Map();
+    for (const item of items) {
       const { solid, paint } = KINDS[item.kind];
-      const moving = this.drag?.kind === 'item' && this.drag.item.id === item.id ? this.drag.at : item;
-      paint?.(c, item, moving, this);
-      if (solid) {
-        const path = this.shape(item, moving);
-        c.save();
-        c.shadowColor = this.dark ? 'rgb(0 0 0 / .45)' : 'rgb(50 44 20 / .22)';
-        c.shadowBlur = 7 * this.ratio;
-        c.shadowOffsetY = 2.5 * this.ratio;
-        c.fillStyle = others.includes(item) ? '#e8a33d' : this.paint[solid];
-        c.fill(path);
-        c.restore();
-        if (solid !== 'wall') {
-          c.strokeStyle = this.selected?.id === item.id ? this.paint.ink : this.paint['block-edge'];
-          c.lineWidth = (this.selected?.id === item.id ? 2 : 1) * this.dot;
-          c.stroke(path);
-        }
-        if (item.name) this.label(c, item.name, item.x, item.y + (item.r ?? Math.hypot(item.w, item.d) / 2) + 9 * this.dot, this.paint.ink, 600, this.paint.card);
-      }
+      const at = this.drag?.kind === 'item' && this.drag.item.id === item.id ? this.drag.at : item;
+      paint?.(c, item, at, this);
+      if (!solid) continue;
+      const name = item.name ? 'robot' : this.selected?.id === item.id ? 'selected' : solid;
+      if (!paths.has(name)) paths.set(name, new Path2D());
+      paths.get(name).addPath(this.shape(item, at));
+    }
+    for (const [name, path] of paths) {
+      c.save();
+      c.shadowColor = this.dark ? 'rgb(0 0 0 / .45)' : 'rgb(50 44 20 / .22)';
+      c.shadowBlur = 7 * this.ratio;
+      c.shadowOffsetY = 2.5 * this.ratio;
+      c.fillStyle = name === 'robot' ? '#e8a33d' : this.paint[name === 'wall' ? 'wall' : 'block'];
+      c.fill(path);
+      c.restore();
+      if (name === 'wall') continue;
+      c.strokeStyle = this.paint[name === 'selected' ? 'ink' : 'block-edge'];
+      c.lineWidth = (name === 'selected' ? 2 : 1) * this.dot;
+      c.stroke(path);
+    }
+    for (const item of items) {
+      if (item.name) this.label(c, item.name, item.x, item.y + (item.r ?? Math.hypot(item.w, item.d) / 2) + 9 * this.dot, this.paint.ink, 600, this.paint.card);
     }
   }
 
@@ -167,6 +201,7 @@ export class Picture extends Camera {
     if (this.trail.age !== age || this.trail.thinned !== thinned) {
       this.trail = { age, thinned, true: { path: new Path2D(), from: 0 }, believed: { path: new Path2D(), from: 0 } };
     }
+    this.fades = false;
     const lines = [['true', 'x', 'y', robot.true, this.dark ? '#dcb400' : '#9a7400', 1.8, []]];
     if (this.shown.believed) lines.push(['believed', 'bx', 'by', robot.pose, this.paint.blue, 1.4, [1, 4]]);
     for (const [name, xs, ys, here, color, width, dash] of lines) {
@@ -183,6 +218,7 @@ export class Picture extends Camera {
       const recent = { last: null };
       const path = new Path2D();
       for (let i = after(samples.time, this.model.time - CLEAR); i < end; i += 1) this.extend(recent, path, x, y, i);
+      this.fades ||= recent.grows;
       if (here && recent.last && Math.hypot(here[0] - recent.last[0], here[1] - recent.last[1]) < 12) path.lineTo(here[0], here[1]);
       c.setLineDash(dash.map((n) => n * this.dot));
       c.stroke(path);
@@ -199,8 +235,10 @@ export class Picture extends Camera {
     const time = this.model.samples.time[i];
     const way = line.last && Math.hypot(x[i] - line.last[0], y[i] - line.last[1]);
     if (!line.last || way > 6 + 90 * (time - line.last[2])) path.moveTo(x[i], y[i]);
-    else if (way > 0.05) path.lineTo(x[i], y[i]);
-    else return;
+    else if (way > 0.05) {
+      path.lineTo(x[i], y[i]);
+      line.grows = true;
+    } else return;
     line.last = [x[i], y[i], time];
   }
 

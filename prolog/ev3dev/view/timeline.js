@@ -12,8 +12,6 @@ const APART = 0.04;
 /** What sensors see is shown at moments so near to a frame. */
 const SEEN_WITHIN = 0.06;
 const STEP = 0.05;
-/** So often, in ms, the bar goes on with the time: a slider is laid out again each time. */
-const EVERY = 250;
 const KEPT = ['name', 'world', 'spec', 'path', 'grid', 'screen', 'active'];
 
 export const goTo = (t) => document.dispatchEvent(new CustomEvent('ev3dev-time', { detail: { t } }));
@@ -44,7 +42,7 @@ export class Timeline {
       if (this.past) goTo(null);
     }
     this.keep(model);
-    if (model.frame.new || performance.now() - this.described > EVERY) this.describe();
+    if (model.frame.new || !model.frame.clock.stands) this.describe();
   }
 
   keep(model) {
@@ -109,7 +107,6 @@ export class Timeline {
 
   describe() {
     const { slider, model, t } = this;
-    this.described = performance.now();
     const last = model.time;
     const { first } = this;
     slider.disabled = !(last - first > 2 * STEP);

@@ -36,6 +36,10 @@ export class World extends Picture {
     this.trail = { age: -1 };
     this.motion = null;
     this.model = null;
+    /** Something is not drawn yet. */
+    this.stale = false;
+    /** The pictures so far. */
+    this.drawings = 0;
     /** An editor, while it has the world. */
     this.editing = null;
     this.colors();
@@ -69,6 +73,8 @@ export class World extends Picture {
     } else if (!this.camera.own && !model.world) this.fit();
     if (model.frame.new && this.following) this.following = true;
     this.motion = this.blend(before, interval);
+    this.stale ||= !model.frame.calm || (this.fades && !model.frame.clock.stands);
+    if (model.frame.calm) return;
     this.legend();
     if (this.selected === 'robot' && !this.drag) this.told();
     this.describe();
@@ -105,8 +111,9 @@ export class World extends Picture {
     return { before, start: performance.now(), length: Math.min(120, interval) };
   }
 
-  /** One picture; answers whether there is more of the motion to come. */
+  /** One picture, if another one is to be seen; answers whether there is more of the motion to come. */
   animate(time) {
+    if (!this.stale) return false;
     if (this.motion) {
       const share = Math.min(1, (time - this.motion.start) / this.motion.length);
       const { before } = this.motion;
@@ -122,14 +129,15 @@ export class World extends Picture {
       }
     }
     this.draw();
-    return this.motion !== null;
+    this.stale = this.motion !== null;
+    return this.stale;
   }
 
   describe() {
     const { frame, world } = this.model;
     const parts = this.model.until === undefined ? [] : [`As it was at ${num(this.model.time, 2)} s.`];
     if (world) {
-      const things = (world.items ?? []).filter((item) => KINDS[item.kind].solid).length;
+      const things = this.solids(world.items ?? []);
       const size = world.bounds ? `, ${num(world.bounds[2] - world.bounds[0])} by ${num(world.bounds[3] - world.bounds[1])} cm` : '';
       parts.push(`${this.model.name ? `World ${this.model.name}` : 'A world'}${size}, ${things} ${things === 1 ? 'obstacle' : 'obstacles'}.`);
     }
@@ -143,6 +151,12 @@ export class World extends Picture {
     }
     this.words = parts.join(' ') || 'No robot is known.';
     attribute(this.canvas, 'aria-label', this.words);
+  }
+
+  /** How many obstacles there are. */
+  solids(items) {
+    if (this.counted?.items !== items) this.counted = { items, count: items.filter((item) => KINDS[item.kind].solid).length };
+    return this.counted.count;
   }
 
   /** What lies over the world goes to its other end where it hides the robot. */

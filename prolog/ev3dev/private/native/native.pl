@@ -171,6 +171,7 @@
             sim_remote_/2,              % +Channel, +Buttons
             sim_step_/1,                % +Seconds
             sim_time_/1,                % -Seconds
+            sim_unseen_/0,
             sim_clock_/1,               % -Seconds
             sim_snapshot_/1,            % -Snapshot
             sim_snapshots_/1,           % -Count
@@ -211,7 +212,7 @@
             view_leave_/1,              % +Page
             view_shut_/1,               % +Bye
             % src/view/frame.rs
-            view_frame_/5,              % +Page, +Have, +State, +Rate, +Goals
+            view_frame_/6,              % +Page, +Have, +State, +Rate, ..
             view_source_/1,             % -Source
             % src/view/hand.rs
             view_pace_/1,               % +Factor
@@ -228,6 +229,7 @@
             localize_show_/1,           % +Localizer
             % src/view/mod.rs
             view_open_/0,
+            view_expect_/0,
             view_close_/0,
             view_thread_/1,             % +Serves
             view_show_/1,               % +Brick

@@ -7,7 +7,7 @@
           ]).
 :- use_module('../errors/errors', [throw_error/3]).
 :- use_module('../native/native',
-              [ view_end_/2, view_frame_/5, view_hear_/3, view_leave_/1,
+              [ view_end_/2, view_frame_/6, view_hear_/3, view_leave_/1,
                 view_say_/2, view_serve_/5, view_shut_/1, view_visit_/1 ]).
 :- use_module(goals, [goal_line/4, goals_end/1]).
 :- use_module(controls, [hand_line/3]).
@@ -122,9 +122,9 @@ time_left(wanted(_), Last, Left) :-
 
 heard(none, Page, wanted(Have), _) :-
     !,
-    frame_send(Page, Have),
+    frame_sent(Page, Have, Wanted),
     get_time(Now),
-    converse(Page, none, Now).
+    converse(Page, Wanted, Now).
 heard(none, Page, none, Last) :-
     !,
     converse(Page, none, Last).
@@ -146,7 +146,7 @@ heard(Line, Page, Wanted0, Last) :-
 page_says(Page, Line) :-
     word_rest(Line, Word, Rest),
     (   Word == next
-    ->  frame_send(Page, Rest)
+    ->  frame_send(Page, Rest, false)
     ;   line(Word, Rest, Page)
     ).
 
@@ -155,14 +155,20 @@ due(Have, Last, Page, Wanted, Last1) :-
     settings(Interval, _, _),
     get_time(Now),
     (   Now >= Last + Interval - 0.0005
-    ->  frame_send(Page, Have),
-        Wanted = none,
+    ->  frame_sent(Page, Have, Wanted),
         Last1 = Now
     ;   Wanted = wanted(Have),
         Last1 = Last
     ).
 
-frame_send(Page, Have) :-
+%   A page that has all there is waits for a change.
+frame_sent(Page, Have, Wanted) :-
+    (   frame_send(Page, Have, true)
+    ->  Wanted = none
+    ;   Wanted = wanted(Have)
+    ).
+
+frame_send(Page, Have, Waits) :-
     settings(_, Rate, Goals),
     program_state(State),
     renew_kept,
@@ -171,7 +177,7 @@ frame_send(Page, Have) :-
     ->  log_commands(true)
     ;   log_commands(false)
     ),
-    view_frame_(Page, Have, State, Rate, Goals).
+    view_frame_(Page, Have, State, Rate, Goals, Waits).
 
 %!  word_rest(+Line, -Word, -Rest) is det.
 %
