@@ -35,7 +35,8 @@
 :- reexport(sim_time).
 :- reexport(sim_views).
 :- use_module(private/native/native,
-              [sim_active_/0, sim_crowd_/4, sim_start_/4, sim_stop_/0]).
+              [ sim_active_/0, sim_crowd_/4, sim_start_/4, sim_stop_/0,
+                sim_unseen_/0 ]).
 
 :- meta_predicate
     with_sim(+, 0),
@@ -176,11 +177,22 @@ crowd_started(Robots, World, LocatedWorld, WorldFacts, Native, Options) :-
                  ( in_brick(Brick, ( set_added_facts([]),
                                      note_world(World, Options) )),
                    name_brick(Name, Brick, sim(World)) )),
+          until_seen(500),
           Started = true ),
         (   Started == true
         ->  true
         ;   forall(member(robot(Brick, _, _), Natives), end_brick(Brick))
         )).
+
+%   If a page looks, no time passes until it shows the robots.
+until_seen(Looks) :-
+    (   Looks > 0,
+        sim_unseen_
+    ->  sleep(0.02),
+        Looks1 is Looks - 1,
+        until_seen(Looks1)
+    ;   true
+    ).
 
 robot_named(Item, Name, Robot, Located) :-
     must_be(nonvar, Item),

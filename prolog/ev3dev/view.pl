@@ -14,9 +14,9 @@
               [domain_error/2, in_own_name/1, throw_error/3]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments, [must_be_options/3, option/3]).
-:- use_module(private/processes/browser, [open_browser/2]).
+:- use_module(private/processes/browser, [open_browser/3]).
 :- use_module(private/native/native,
-              [ view_close_/0, view_open_/0, view_value_/2 ]).
+              [ view_close_/0, view_expect_/0, view_open_/0, view_value_/2 ]).
 :- use_module(private/view/controls, [hands_end/0]).
 :- use_module(private/view/jog, [jog_end/0]).
 :- use_module(private/view/static_state, [watch_add/2, watches_end/0]).
@@ -111,7 +111,11 @@ view(Options) :-
         print_message(help, ev3dev(view(Url)))
     ;   print_message(informational, ev3dev(view(Url)))
     ),
-    open_browser(Open, Url).
+    open_browser(Open, Url, Opened),
+    (   Opened == true
+    ->  view_expect_
+    ;   true
+    ).
 
 %   A variable stays one: a default must not be taken for it.
 port(Options, Port) :-

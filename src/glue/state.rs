@@ -156,10 +156,21 @@ fn inherited() -> &'static Brick {
 
 /// The brick that pages show.
 fn shown() -> &'static Brick {
-    [&CHOSEN, &SHOWN]
-        .into_iter()
-        .find_map(|number| brick(number.load(Ordering::Acquire)))
-        .unwrap_or_else(first)
+    let [chosen, main] = [&CHOSEN, &SHOWN].map(|number| brick(number.load(Ordering::Acquire)));
+    let is_robot = |brick: &&Brick| brick.files().is_tree_chosen;
+    let any = || locked(&BRICKS).iter().copied().find(is_robot);
+    chosen.or_else(|| main.filter(is_robot)).or_else(any).or(main).unwrap_or_else(first)
+}
+
+/// The film that pages show.
+pub(crate) fn shown_film() -> u64 {
+    shown().watched.film()
+}
+
+/// Pages show this brick as if it was that of the main thread.
+pub(crate) fn show_robot(number: u32) {
+    SHOWN.store(number, Ordering::Release);
+    CHOSEN.store(NOBODY, Ordering::Release);
 }
 
 fn first() -> &'static Brick {

@@ -22,7 +22,7 @@ use crate::facts::{self, channel_of, named, remote_buttons};
 use crate::glue::call::Call;
 use crate::glue::due::Bell;
 use crate::glue::error::{no_such, wrong_because, wrong_value};
-use crate::glue::state::{devices, watched};
+use crate::glue::state::{devices, shown_film, watched};
 use crate::glue::terms::{Prolog, unify_atom};
 use crate::glue::watch;
 use ev3_driver::Registry;
@@ -275,6 +275,11 @@ natives! {
     /// sim_time_(-Seconds)
     semidet fn "sim_time_"(context, seconds) {
         seconds.unify(simulation(context)?.machine().now().as_secs_f64())
+    }
+
+    /// sim_unseen_: a page looks, but has not drawn the robot that it is to show.
+    semidet fn "sim_unseen_"(_context) {
+        into_prolog_result(watch::drawn_film().is_some_and(|film| film != shown_film()))
     }
 
     /// sim_clock_(-Seconds): the same, without a turn, nor a reason to fail.

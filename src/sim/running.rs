@@ -5,7 +5,7 @@ use super::mount;
 use crate::glue::call::Call;
 use crate::glue::error::no_such;
 use crate::glue::state::{
-    Selected, brick_number, select, selected, use_brick, use_dev, use_tree, watched,
+    Selected, brick_number, select, selected, show_robot, use_brick, use_dev, use_tree, watched,
 };
 use crate::glue::terms::Prolog;
 use crate::glue::waiting::tick_at_once;
@@ -106,14 +106,18 @@ pub(super) fn start_crowd<C: Prolog>(
     };
     let outer = brick_number();
     let names: Arc<[String]> = robots.iter().map(|(_, name)| name.clone()).collect();
+    // Somebody who looks sees a match, and not its end.
+    let pace = watch::drawn_film().filter(|_| clock == Clock::Virtual).map(|_| 1.0);
     let mut started = Ok(());
     for ((brick, _), simulation) in robots.iter().zip(simulations) {
         if started.is_ok() && use_brick(*brick) {
             simulation.machine().keep_samples(watch::is_watched());
+            simulation.set_pace(pace);
             started = run(call, simulation, Arc::clone(&names));
         }
     }
     use_brick(outer);
+    robots.iter().take(1).for_each(|(brick, _)| show_robot(*brick));
     started.map(Ok)
 }
 

@@ -38,6 +38,12 @@ natives! {
         into_prolog_result(true)
     }
 
+    /// view_expect_: a browser was begun, in which a page will come.
+    semidet fn "view_expect_"(_context) {
+        watch::look(0, 4 * watch::LOOKS);
+        into_prolog_result(true)
+    }
+
     /// view_close_: nobody does any more. Time passes as fast as ever.
     semidet fn "view_close_"(_context) {
         watch::set_watched(false);

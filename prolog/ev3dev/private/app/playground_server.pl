@@ -4,7 +4,7 @@
 :- use_module(library(http/http_dispatch)).
 :- use_module(library(http/http_files)).
 :- use_module(library(http/thread_httpd)).
-:- use_module('../processes/browser', [open_browser/2]).
+:- use_module('../processes/browser', [open_browser/3]).
 
 /** <module> The playground, served from a folder
 
@@ -31,7 +31,7 @@ serve(Folder, Address, Wanted, Open) :-
     format(atom(Url), 'http://localhost:~w/', [Port]),
     format("The playground is at ~w~nCtrl-C ends it.~n", [Url]),
     flush_output,
-    open_browser(Open, Url),
+    open_browser(Open, Url, _),
     thread_get_message(ev3dev_playground_ends).
 
 :- public reply/2.

@@ -1,23 +1,24 @@
 :- module(ev3dev_browser,
-          [ open_browser/2              % +Open, +Url
+          [ open_browser/3              % +Open, +Url, -Opened
           ]).
 
 /** <module> The browser of this machine
 */
 
-%!  open_browser(+Open, +Url) is det.
+%!  open_browser(+Open, +Url, -Opened) is det.
 %
 %   Open a browser at Url if Open is `true`, or if it is `display` and there
-%   is a display. Does nothing if there is no browser.
+%   is a display. Opened is whether one was begun: there may be no browser.
 
 %   The browser gets no socket of ours, and must not hold up the toplevel.
-open_browser(Open, Url) :-
+open_browser(Open, Url, Opened) :-
     (   browses(Open),
-        opener(Program)
-    ->  format(atom(Command),
+        opener(Program),
+        format(atom(Command),
                '~w \'~w\' >/dev/null 2>&1 </dev/null &', [Program, Url]),
         catch(shell(Command, _), _, true)
-    ;   true
+    ->  Opened = true
+    ;   Opened = false
     ).
 
 browses(true).
