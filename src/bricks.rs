@@ -1,6 +1,7 @@
 //! `prolog/ev3dev/bricks.pl`, `private/run/brick.pl`: which brick predicates are about.
 use crate::glue::{due, state, waiting};
 use ev3_driver::motor;
+use swipl::fli::this_thread;
 use swipl::prelude::*;
 
 natives! {
@@ -30,6 +31,21 @@ natives! {
         let closed = state::close_brick(number).ok_or(PrologError::Failure)?;
         crate::sim::end_of(number);
         call.or_throw(closed)
+    }
+
+    /// far_guard_(-Thread): this thread, of that number, has called a goal of a far brick, whose
+    /// motors may turn.
+    semidet fn "far_guard_"(context, thread) as call("far", 2) {
+        thread.unify(i64::from(this_thread()))?;
+        let _ = state::watch_signals();
+        call.guard(true)
+    }
+
+    /// stop_turning_(-Ports): stops the motors that turn, of all bricks.
+    semidet fn "stop_turning_"(_context, ports) {
+        let stopped = state::stop_turning(None);
+        let names: Vec<_> = stopped.iter().map(|motor| atomable(motor.port())).collect();
+        ports.unify(names.as_slice())
     }
 
     /// stop_all_bricks_: stops all motors that are connected to the bricks in use.

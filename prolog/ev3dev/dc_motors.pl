@@ -18,6 +18,7 @@
 :- use_module(private/explain/hints).
 :- use_module(driver, [dc_motor/1]).
 :- use_module(private/run/halt, []).
+:- use_module(private/run/watchdog, []).
 :- use_module(motors, []).
 :- use_module(private/checks/arguments, [word/2]).
 :- use_module(private/checks/motor_arguments, [motor_options/5]).

@@ -161,7 +161,8 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %
 %   Time is that of ev3_time/1. Causes are those of because/2, the innermost
 %   first, and at last called(Name/Arity), the predicate that wrote the
-%   command. The libraries say
+%   command; ev3dev_watchdog/0 is the stop of a program that computes for too
+%   long (docs/safety.md). The libraries say
 %
 %     - rule(Name, Guard), rules(none), rules(ended), event(Id, Condition)
 %       of library(ev3dev/rules): `none` if no rule applies, `ended` if

@@ -30,6 +30,7 @@
 :- use_module(driver,
               [ command/2, max_speed/2, motor_attribute/3 ]).
 :- use_module(private/run/halt, []).
+:- use_module(private/run/watchdog, []).
 :- use_module(private/checks/arguments,
               [ must_be_options/3, number_option/4, option/2, option/3,
                 speed_value/2, timeout_option/2, word/2 ]).
@@ -63,6 +64,10 @@ motor that the program started, unless the flag `ev3dev_stop_at_halt` is
 seconds to end, then the process is ended. A crash stops motors, too, and so
 does Ctrl-Z. After SIGKILL another process does, which the first motor starts:
 not if the flag `ev3dev_stop_at_kill` was `false` then.
+
+The motors of a thread stop when it has computed for as many seconds as the
+flag `ev3dev_watchdog` says (3.0; 0 is never), and has not used the robot or
+waited meanwhile.
 
 To end a thread that waits here, throw into it with thread_signal/2. Do not
 signal thread_exit/1: no cleanup runs then, and the motors run on.

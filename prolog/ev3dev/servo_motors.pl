@@ -13,6 +13,7 @@
 :- use_module(private/explain/hints).
 :- use_module(driver, [servo_motor/1]).
 :- use_module(private/run/halt, []).
+:- use_module(private/run/watchdog, []).
 :- use_module(private/devices/attributes,
               [attribute/4, class_polarity/3, class_settings/3]).
 :- use_module(private/native/native,

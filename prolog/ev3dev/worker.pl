@@ -5,7 +5,7 @@
 :- use_module(private/errors/frames, [goal_of_program/1]).
 :- use_module(private/bricks/far_frames,
               [ beat/1, protocol/1, receive_frames/2, send_frame/4 ]).
-:- use_module(private/native/native, [stop_all_bricks_/0]).
+:- use_module(private/native/native, [stop_all_bricks_/0, stop_turning_/1]).
 :- user:use_module(library(ev3dev)).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(unix), [dup/2]).
@@ -43,38 +43,45 @@ work :-
     protocol(Version),
     send_frame(Out, hello, 0, Version),
     thread_self(Main),
-    thread_create(listen(In, Main), _, [detached(true)]),
+    thread_create(listen(In, Out, Main), _, [detached(true)]),
     thread_create(beat(Out), _, [detached(true)]),
     serve(Out).
 
 %   Another thread listens, also while a goal runs.
 
-listen(In, Main) :-
-    receive_frames(In, ev3dev_worker:hear(In, Main)),
+listen(In, Out, Main) :-
+    receive_frames(In, ev3dev_worker:hear(In, Out, Main)),
     leave.
 
-hear(In, _, hello, _, Version) :-
+hear(In, _, _, hello, _, Version) :-
     !,
     (   protocol(Version)
     ->  set_stream(In, timeout(1))
     ;   leave
     ).
-hear(_, Main, call, Number, Request) :-
+hear(_, _, Main, call, Number, Request) :-
     !,
     thread_send_message(Main, request(Number, Request)).
-hear(_, Main, load, Number, Request) :-
+hear(_, _, Main, load, Number, Request) :-
     !,
     thread_send_message(Main, request(Number, Request)).
-hear(_, Main, cancel, Number, _) :-
+hear(_, _, Main, cancel, Number, _) :-
     !,
     thread_signal(Main, ev3dev_worker:cancel(Number)).
-hear(_, _, stop, _, _) :-
+hear(_, Out, _, idle, Number, _) :-
+    !,
+    (   running(_)
+    ->  Ports = []
+    ;   stop_turning_(Ports)
+    ),
+    answer(Out, Number, yes(Ports)).
+hear(_, _, _, stop, _, _) :-
     !,
     stop_all_bricks_.
-hear(_, _, end, _, _) :-
+hear(_, _, _, end, _, _) :-
     !,
     leave.
-hear(_In, _Main, _, _Number, _Version).
+hear(_In, _Out, _Main, _, _Number, _Version).
 
 %   SIGTERM stops the motors whatever the goal does, and ends the process
 %   within two seconds.

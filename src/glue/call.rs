@@ -1,6 +1,6 @@
 //! One call of a native predicate: its arguments, its answers.
 use crate::glue::due::{has_guards, has_rung, is_any_due};
-use crate::glue::error::{Origin, raise};
+use crate::glue::error::{Origin, raise, wrong_because};
 use crate::glue::interned::atom_text;
 use crate::glue::signals;
 use crate::glue::state;
@@ -14,7 +14,7 @@ use std::ops::Deref;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
-use swipl::fli::{integer_in, list_end};
+use swipl::fli::{integer_in, list_end, number_flag};
 use swipl::prelude::*;
 
 /// The text of an atom or a string.
@@ -106,6 +106,7 @@ impl<'a, C: Prolog> Call<'a, C> {
             return self.devices();
         };
         watch::note_user();
+        ev3_signals::lives();
         if !devices.tree().takes_turns() && !is_any_due() {
             return Ok(devices);
         }
@@ -128,6 +129,20 @@ impl<'a, C: Prolog> Call<'a, C> {
         self.devices_to_command()
     }
 
+    /// This thread is about to start a motor, a `far` one or one of its own: the watchdog stops it
+    /// if the program computes for too long.
+    pub(crate) fn guard(&self, far: bool) -> PrologResult<()> {
+        let seconds = number_flag(c"ev3dev_watchdog").unwrap_or(0.0);
+        if seconds.is_nan() || seconds < 0.0 {
+            let [flag] = self.context.new_term_refs();
+            flag.unify(seconds)?;
+            let text = "the flag ev3dev_watchdog is 0, or a number of seconds";
+            return wrong_because(self, "seconds", &flag, text);
+        }
+        signals::guard(far, Duration::try_from_secs_f64(seconds).unwrap_or_default());
+        Ok(())
+    }
+
     /// A motor may be started: throws in a guard, and where nothing could stop the motor.
     pub(crate) fn may_move(&self) -> PrologResult<()> {
         self.before_motors()?;
@@ -141,10 +156,11 @@ impl<'a, C: Prolog> Call<'a, C> {
     /// whether they are to be stopped when the process is killed.
     #[inline]
     pub(crate) fn before_motors(&self) -> PrologResult<()> {
+        self.guard(false)?;
         if has_prepared_motors() {
             return Ok(());
         }
-        self.or_throw(signals::watch(state::stop_started).map_err(|source| Error::Open {
+        self.or_throw(state::watch_signals().map_err(|source| Error::Open {
             path: "a pipe for signals".into(),
             access: Access::Write,
             source,

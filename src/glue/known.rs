@@ -93,6 +93,7 @@ pub(crate) fn with<T>(key: Key, act: impl FnOnce(Found) -> Option<T>) -> Option<
     if is_any_due() {
         return None;
     }
+    ev3_signals::lives();
     let found = KNOWN.try_with(|known| {
         let known = known.try_borrow().ok()?;
         let entry = known.get(slot(key))?.as_ref()?;

@@ -4,9 +4,10 @@ use crate::glue::watch::Watched;
 use ev3_driver::brick::screen::frame::Frame;
 use ev3_driver::brick::sound::Sound;
 use ev3_driver::drive::{Drive, Robot};
-use ev3_driver::{Devfs, DevfsDir, Registry, Sysfs, SysfsDir, motor};
+use ev3_driver::{Devfs, DevfsDir, Device, Registry, Sysfs, SysfsDir, journal, motor};
 use ev3_os::locked;
 use std::cell::Cell;
+use std::io;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{
@@ -302,16 +303,39 @@ pub(crate) fn stop_started() {
     let _ = on_all_bricks(motor::stop_started);
 }
 
+/// Stops the motors of all bricks that turn while a program computes, and that got their last
+/// command from that thread, or from any; those that turned.
+pub(crate) fn stop_turning(commander: Option<u32>) -> Vec<Arc<Device>> {
+    let devices = all_devices().into_iter().filter(|devices| devices.tree().goes_on());
+    devices.flat_map(|devices| motor::stop_turning(&devices, commander)).collect()
+}
+
+/// The thread of that name has computed for so long: its motors stop.
+fn computes(name: u64, limit: Duration) {
+    #[expect(clippy::cast_possible_truncation, reason = "the lower half")]
+    let commander = name as u32;
+    journal::set_called("ev3dev_watchdog", 0);
+    let stopped = stop_turning(Some(commander));
+    journal::forget_called();
+    let ports: Vec<_> = stopped.iter().map(|motor| motor.port()).collect();
+    signals::say_computed(name, limit, &ports);
+}
+
+/// Takes the signals that end the program, and looks after threads that compute, from now on.
+pub(crate) fn watch_signals() -> io::Result<()> {
+    signals::watch(stop_started, computes)
+}
+
 /// Keeps the tree in use.
 pub(crate) fn chosen() {
-    let _ = signals::watch(stop_started); // else no motor starts
+    let _ = watch_signals(); // else no motor starts
     current().change_files().is_tree_chosen = true;
 }
 
 /// Uses another tree from now on. This stops the motors that were started in the old
 /// tree, because no later call would find them there.
 pub(crate) fn use_tree(tree: Arc<dyn Sysfs>) -> ev3_driver::Result<()> {
-    let _ = signals::watch(stop_started); // else no motor starts
+    let _ = watch_signals(); // else no motor starts
     let tree = InTree::new(tree);
     let before = {
         let mut files = current().change_files();

@@ -22,6 +22,8 @@ pub(crate) const HALTS: u8 = b'H';
 pub(crate) const IS_TO_HALT: u8 = b'A';
 /// The main thread has ended.
 pub(crate) const MAIN_IS_OVER: u8 = b'M';
+/// A thread computes for too long; the number is that of its slot.
+pub(crate) const COMPUTES: u8 = b'T';
 /// The program has a child of fork(2).
 pub(crate) const FORKED: u8 = b'F';
 

@@ -8,6 +8,7 @@
 //!   ends within [`PATIENCE`], whatever Prolog does.
 //! * At any other signal that ends a process or makes it stand, the handler itself stops the
 //!   motors, by files that are kept open for that ([`Kept`]).
+//! * A thread that computes while its motors run ([`guard`]) has them stopped.
 //! * At SIGKILL nothing can be done within the process. A small one beside it
 //!   ([`survive`]) stops the motors as soon as this one has gone.
 //!
@@ -33,6 +34,8 @@
 //! If there are no signals there is the latch alone.
 #![cfg_attr(unix, expect(unsafe_code, reason = "handlers of signals, and processes, are C's"))]
 #[cfg(unix)]
+mod computing;
+#[cfg(unix)]
 mod crash;
 #[cfg(unix)]
 mod events;
@@ -53,11 +56,15 @@ mod survivor;
 mod watchdog;
 
 #[cfg(unix)]
+pub use computing::{guard, lives};
+#[cfg(unix)]
 pub use kept::Kept;
 #[cfg(unix)]
 pub use lines::leave;
 #[cfg(not(unix))]
-pub use none::{Asked, halts, is_to_halt, leave, own_handlers_stack, stop_for, survive, watch};
+pub use none::{
+    Asked, guard, halts, is_to_halt, leave, lives, own_handlers_stack, stop_for, survive, watch,
+};
 #[cfg(unix)]
 pub use stack::own_handlers_stack;
 #[cfg(unix)]

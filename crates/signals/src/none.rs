@@ -2,6 +2,7 @@
 //! motor outlives that.
 use crate::latch::{self, Reason};
 use std::io;
+use std::time::Duration;
 
 /// What a watchdog asks. Nobody does here.
 pub struct Asked {
@@ -9,12 +10,20 @@ pub struct Asked {
     pub ends: fn(&'static str, bool) -> bool,
     /// Stops the motors.
     pub stop: fn(),
+    /// Stops those of a thread that computes.
+    pub computes: fn(u64, Duration),
 }
 
 /// No signal arrives.
 pub fn watch(_asked: Asked) -> io::Result<()> {
     Ok(())
 }
+
+/// On a virtual clock nothing moves while a thread computes.
+pub fn guard(_name: u64, _limit: Duration) {}
+
+/// Nobody asks.
+pub fn lives() {}
 
 /// Nothing outlives the program.
 pub fn survive(_is_wanted: bool) {}

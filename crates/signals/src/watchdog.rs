@@ -6,10 +6,10 @@
 //! if it will. Then Prolog gets the signal. Whatever Prolog and the asker do: two seconds
 //! after the signal the process has ended.
 use crate::events::{
-    self, CONTINUED, ENDS, FORKED, GOES_ON, HALTS, IS_TO_HALT, MAIN_IS_OVER, SIGNAL, send,
+    self, COMPUTES, CONTINUED, ENDS, FORKED, GOES_ON, HALTS, IS_TO_HALT, MAIN_IS_OVER, SIGNAL, send,
 };
 use crate::latch::{self, Reason};
-use crate::{crash, handlers, kept, lines, survivor};
+use crate::{computing, crash, handlers, kept, lines, survivor};
 use nix::libc::{self, c_int, c_void};
 use nix::sys::signal::{SigSet, SigmaskHow};
 use std::io::{self, Read, Write};
@@ -38,6 +38,9 @@ pub struct Asked {
     pub ends: fn(&'static str, bool) -> bool,
     /// Stops the motors.
     pub stop: fn(),
+    /// Stops those of the thread of that name, see [`computing::guard`], which has computed for
+    /// so long.
+    pub computes: fn(u64, Duration),
 }
 
 /// Prolog ends the program because of a signal, such as `term`: the process ends within
@@ -115,6 +118,10 @@ fn answer(mut questions: &UnixStream, asked: &Asked) {
         if what == CONTINUED {
             (asked.stop)();
             latch::lift(Reason::Standing);
+        } else if what == COMPUTES {
+            if let Some((name, limit)) = computing::still_computes(number.into()) {
+                (asked.computes)(name, limit);
+            }
         } else {
             let signal = c_int::from(number);
             let ends = (asked.ends)(name(signal), has_terminal());
@@ -300,6 +307,9 @@ impl Watchdog {
             latch::lift(Reason::Standing);
         }
         self.look_at_crash(now);
+        computing::look(|number| {
+            let _ = self.asker.write_all(&[COMPUTES, u8::try_from(number).unwrap_or(0)]);
+        });
         handlers::take_again();
         if self.forks_until.is_some_and(|time| time <= now) {
             self.forks_until = None;

@@ -4,8 +4,8 @@
 //! versions and `bool` in new ones; [`translated!`] those that take or answer numbers which changed
 //! ([`crate::version`]); the plain `extern` block those that are the same everywhere.
 use crate::types::{
-    BUF_DISCARDABLE, CVT_ATOM, IOSTREAM, PL_INTEGER, PL_blob_t, PL_engine_t, PL_fid_t, REP_UTF8,
-    atom_t, control_t, functor_t, module_t, predicate_t, qid_t, record_t, term_t,
+    BUF_DISCARDABLE, CVT_ATOM, IOSTREAM, PL_FLOAT, PL_INTEGER, PL_blob_t, PL_engine_t, PL_fid_t,
+    REP_UTF8, atom_t, control_t, functor_t, module_t, predicate_t, qid_t, record_t, term_t,
 };
 use crate::version::Version;
 use std::cell::Cell;
@@ -385,6 +385,21 @@ pub fn integer_flag(name: &CStr) -> Option<i64> {
         PL_unregister_atom(atom);
         (is_integer != 0).then_some(value)
     }
+}
+
+/// The value of a flag of Prolog that is a number.
+pub fn number_flag(name: &CStr) -> Option<f64> {
+    let kind = Version::running().kind(PL_FLOAT);
+    let mut value = 0_f64;
+    // Safety: a float is written as 64 bits. The atom has a reference for that long.
+    let is_float = unsafe {
+        let atom = PL_new_atom(name.as_ptr());
+        let is_float = PL_current_prolog_flag(atom, kind, (&raw mut value).cast());
+        PL_unregister_atom(atom);
+        is_float != 0
+    };
+    #[expect(clippy::cast_precision_loss, reason = "a flag is no such number")]
+    if is_float { Some(value) } else { integer_flag(name).map(|integer| integer as f64) }
 }
 
 /// The number of this thread of Prolog.

@@ -109,6 +109,12 @@ impl Version {
         }
     }
 
+    /// A type, as this version takes it.
+    pub(crate) fn kind(self, kind: u32) -> u32 {
+        let before = |kind| replaced(&TYPES, kind, |moved| (moved.since, moved.before));
+        if self.translates() { before(kind) } else { kind }
+    }
+
     /// The flags of `PL_open_query`, as this version takes them.
     #[inline]
     pub(crate) fn query_flags(self, flags: c_int) -> c_int {

@@ -252,7 +252,12 @@ impl Device {
     /// Whether the last command of the program to the motor was one of these, of this thread.
     pub(crate) fn is_commanded_in(&self, commands: &Range<u32>) -> bool {
         commands.contains(&self.commanded.load(Ordering::Relaxed))
-            && self.commander.load(Ordering::Relaxed) == motion::commander()
+            && self.is_commanded_by(motion::commander())
+    }
+
+    /// Whether a thread, by its number, gave the last command.
+    pub(crate) fn is_commanded_by(&self, commander: u32) -> bool {
+        self.commander.load(Ordering::Relaxed) == commander
     }
 
     /// Reports that the motor was started.

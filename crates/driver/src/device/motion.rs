@@ -17,7 +17,7 @@ pub(super) fn next_command() -> u32 {
 }
 
 /// A number of this thread.
-pub(super) fn commander() -> u32 {
+pub(crate) fn commander() -> u32 {
     static THREADS: AtomicU32 = AtomicU32::new(0);
     thread_local! {
         static ME: u32 = THREADS.fetch_add(1, Ordering::Relaxed);

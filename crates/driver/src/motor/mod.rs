@@ -96,6 +96,23 @@ pub fn running(registry: &Registry) -> Vec<Arc<Device>> {
     known.iter().flat_map(|motors| motors.iter().filter(|motor| turns(motor))).cloned().collect()
 }
 
+/// The number of this thread among those that command motors.
+pub fn commander() -> u32 {
+    motion::commander()
+}
+
+/// Stops the motors that turn, and got their last command from that thread, or from any; those that
+/// turned.
+pub fn stop_turning(registry: &Registry, commander: Option<u32>) -> Vec<Arc<Device>> {
+    let mut motors = running(registry);
+    motors.retain(|motor| commander.is_none_or(|by| motor.is_commanded_by(by)));
+    for motor in &motors {
+        // One that is gone has nothing to stop.
+        let _ = stop_best_effort(motor, StopAction::Brake);
+    }
+    motors
+}
+
 /// How many commands the program has given to motors so far.
 pub fn command_count() -> u32 {
     motion::command_count()

@@ -12,7 +12,9 @@
               [error_within/3, in_own_name/1, throw_error/3]).
 :- use_module(far_frames,
               [ beat/1, protocol/1, receive_frames/2, send_frame/4 ]).
+:- use_module('../native/native', [far_guard_/1]).
 :- use_module('../run/waits', [let_others_go_on/0]).
+:- use_module('../run/watchdog', []).
 :- use_module(library(process),
               [ process_create/3, process_group_kill/2, process_kill/2,
                 process_wait/3 ]).
@@ -29,12 +31,14 @@ Authentication and encryption are those of ssh.
 :- dynamic
     far/3,                      % Far, Name, In
     process/3,                  % Far, Process, whether it has a group
+    user/2,                     % Far, Thread
     thread/2,                   % Far, Thread
     waiting/3,                  % Far, Number of a call, Queue
     lost/1.                     % Far
 :- volatile
     far/3,
     process/3,
+    user/2,
     thread/2,
     waiting/3,
     lost/1.
@@ -115,7 +119,8 @@ far_close(Far) :-
     end_process(Far, 200),
     catch(close(In, [force(true)]), error(_, _), true),
     forall(retract(thread(Far, Thread)), thread_join(Thread, _)),
-    retractall(lost(Far)).
+    retractall(lost(Far)),
+    retractall(user(Far, _)).
 
 %   It has some hundredths of a second to end by itself. What it has started
 %   may live, and hold its output.
@@ -232,9 +237,12 @@ far_file(Far, File) :-
 
 asked(Far, Kind, Request, Solution) :-
     far(Far, Name, _),
-    flag(ev3dev_far_call, Number0, Number0+1),
-    Number is Number0+1,
-    answer(Far, Number, ev3dev_far:ask(Far, Kind, Number, Request), Answer),
+    answer_to(Far, Kind, Request, Answer),
+    far_guard_(Me),
+    (   user(Far, Me)
+    ->  true
+    ;   assertz(user(Far, Me))
+    ),
     (   Answer = yes(Solution0)
     ->  Solution = Solution0
     ;   Answer = error(Error0)
@@ -251,6 +259,17 @@ asked(Far, Kind, Request, Solution) :-
                      as a stream')
     ;   fail
     ).
+
+answer_to(Far, Kind, Request, Answer) :-
+    flag(ev3dev_far_call, Number0, Number0+1),
+    Number is Number0+1,
+    answer(Far, Number, ev3dev_far:ask(Far, Kind, Number, Request), Answer).
+
+:- multifile ev3dev_watchdog:far_stopped/2.
+
+ev3dev_watchdog:far_stopped(Thread, Ports) :-
+    user(Far, Thread),
+    catch(answer_to(Far, idle, [], yes(Ports)), error(_, _), fail).
 
 ask(Far, Kind, Number, Request) :-
     far(Far, Name, In),

@@ -22,6 +22,7 @@ are the output of the brick's program, in their order among the frames.
 | `load`   | program | call's | file(Name, Text)                            |
 | `answer` | brick   | call's | `yes(Variables)`, `no` or `error(Error)`    |
 | `cancel` | program | call's | the answer is wanted no more                |
+| `idle`   | program | call's | stop what turns, unless a goal runs         |
 | `stop`   | program | 0      | stop all motors                             |
 | `end`    | program | 0      | stop all motors, and end                    |
 */

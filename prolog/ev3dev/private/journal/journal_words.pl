@@ -308,7 +308,9 @@ number_text(Number, Text) :-
 
 reasons(Causes) -->
     (   { append(Before, [called(Called)], Causes) }
-    ->  (   { Before == [] }
+    ->  (   { Called == ev3dev_watchdog/0 }
+        ->  [ ': the program computed for too long'-[] ]
+        ;   { Before == [] }
         ->  [ ': ~w was called'-[Called] ]
         ;   [ ': '-[] ],
             causes(Before)

@@ -7,6 +7,8 @@
             brick_use_/1,               % +Number
             brick_open_/1,              % -Number
             brick_close_/1,             % +Number
+            far_guard_/1,               % -Thread
+            stop_turning_/1,            % -Ports
             stop_all_bricks_/0,
             % src/buttons.rs
             buttons_/1,                 % -Keys

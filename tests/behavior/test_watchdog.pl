@@ -1,0 +1,114 @@
+:- use_module('../support/trees').
+:- use_module('../support/child').
+:- use_module('../support/far_bricks').
+:- use_module(library(ev3dev/bricks)).
+
+% The flag ev3dev_watchdog: a program computes, and its motors run on.
+
+% What a program prints that computes for Seconds of a processor after Start, with the flag, and
+% then says how outB is. On a brick in another process, or simulated here.
+said_after(Where, Flag, Start, Compute, Lines) :-
+    begun(Where, Begin),
+    !,
+    format(string(Text), "
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/journal)).
+compute(S) :- statistics(cputime, T0), repeat, statistics(cputime, T), T-T0 > S, !.
+main :- ~s, set_prolog_flag(ev3dev_watchdog, ~w), ~s, ~s, state(outB, S),
+        format('outB: ~~w~~n', [S]), why(outB).", [Begin, Flag, Start, Compute]),
+    call_in(Where, Text, Output),
+    split_string(Output, "\n", "\n", Lines).
+
+begun(mount, "true").
+begun(Clock, Text) :-
+    member(Clock, [realtime, virtual]),
+    format(string(Text), "sim_start(room, [clock(~w)]), set_robot(5.6, 10.6, outB, outC)",
+           [Clock]).
+
+call_in(mount, Text, Output) :-
+    !,
+    with_tree(mount, [outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
+              ( program_in_tree(Text, Program, Options),
+                run_program(Program, [goal(main)|Options], _, Output) )).
+call_in(_, Text, Output) :-
+    run_program(":- use_module(library(ev3dev)).\n", Text, Output).
+
+run_program(Head, Text, Output) :-
+    string_concat(Head, Text, Program),
+    run_program(Program, [goal(main)], _, Output).
+
+real(Where) :-
+    member(Where, [realtime, mount]),
+    ( Where == mount -> tree(mount) ; true ).
+
+warned(Lines) :-
+    member(Line, Lines),
+    sub_string(Line, _, _, _, "stopped. The program computed for 0.3 s").
+
+was_stopped([_, _, State|Why]) :-
+    State \== "outB: running",
+    member(Line, Why),
+    sub_string(Line, _, _, 0, ": the program computed for too long").
+
+:- begin_tests(watchdog).
+test(motors_stop_when_the_program_computes,
+     [ forall(( real(Where),
+                member(Start, ["motor_run(outB, 30)", "motor_run(outB, 30, 36000, [wait(false)])"]) )),
+       true(once(( warned(Lines), was_stopped(Lines) ))) ]) :-
+    said_after(Where, 0.3, Start, "compute(1)", Lines),
+    Lines = [Warning|_],
+    assertion(sub_string(Warning, _, _, _, "in compute/1 (")),
+    assertion(sub_string(Warning, _, _, _, "outB was stopped.")).
+test(so_do_those_of_a_robot, true(once(( warned(Lines), was_stopped(Lines) )))) :-
+    said_after(realtime, 0.3, "go(30)", "compute(1)", Lines),
+    Lines = [Warning|_],
+    assertion(sub_string(Warning, _, _, _, "outB and outC were stopped.")).
+test(within_one_long_call_that_prolog_cannot_leave, true(once(( warned(Lines), was_stopped(Lines) )))) :-
+    said_after(realtime, 0.3, "motor_run(outB, 30)",
+               "numlist(1, 3000000, L), forall(between(1, 3, _), sort(0, @>=, L, _))", Lines).
+test(not_if_it_uses_the_robot_or_waits_meanwhile,
+     [ forall(( real(Where),
+                member(Look, ["motor_position(outB, _)", "state(outB, _)", "wait(0.001)",
+                              "motor_run(outB, 30)", "sleep(0.001)"]) )),
+       true(First == "outB: running") ]) :-
+    format(string(Compute), "forall(between(1, 12, _), ( compute(0.1), ~s ))", [Look]),
+    said_after(Where, 0.3, "motor_run(outB, 30)", Compute, [First|_]).
+test(not_on_the_virtual_clock_nor_without_the_flag,
+     [ forall(member(Clock-Flag, [virtual-0.3, realtime-0])),
+       true(First == "outB: running") ]) :-
+    said_after(Clock, Flag, "motor_run(outB, 30)", "compute(1)", [First|_]).
+test(another_thread_may_compute, true(First == "outB: running")) :-
+    said_after(realtime, 0.3, "motor_run(outB, 30)",
+               "thread_create(compute(1), T), thread_join(T, _)", [First|_]).
+test(the_motors_of_a_thread_are_its_own, true(once(( warned(Lines), was_stopped(Lines) )))) :-
+    said_after(realtime, 0.3, "motor_run(outC, 30)",
+               "thread_create(( motor_run(outB, 30), compute(1) ), T), thread_join(T, _),
+                ( state(outC, running) -> true ; writeln(outC_rests) )", Lines).
+test(the_flag_is_a_number_of_seconds, error(type_error(float, x), _)) :-
+    set_prolog_flag(ev3dev_watchdog, x).
+test(that_is_not_below_0,
+     [ setup(current_prolog_flag(ev3dev_watchdog, Before)),
+       cleanup(set_prolog_flag(ev3dev_watchdog, Before)),
+       error(domain_error(seconds, -1.0), _) ]) :-
+    set_prolog_flag(ev3dev_watchdog, -1),
+    with_tree(simulator, [outB-'lego-ev3-l-motor'], motor_run(outB, 20)).
+test(motors_of_a_far_brick_stop_too, condition(starts_itself)) :-
+    run_far("0.3", Output),
+    assertion(sub_string(Output, _, _, _, "outB was stopped.")),
+    assertion(sub_string(Output, _, _, _, "in compute/1 (")),
+    assertion(sub_string(Output, _, _, _, "rests\n")).
+:- end_tests(watchdog).
+
+run_far(Flag, Output) :-
+    far_place(Where),
+    format(string(Text), "
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/bricks)).
+compute(S) :- statistics(cputime, T0), repeat, statistics(cputime, T), T-T0 > S, !.
+main :- set_prolog_flag(ev3dev_watchdog, ~w), brick_open(anna, ~q),
+        far(anna, ( use_module(library(ev3dev/sim)), sim_start(room), motor_run(outB, 30) )),
+        compute(1),
+        far(anna, state(outB, S)), ( S == running -> writeln(S) ; writeln(rests) ).",
+           [Flag, Where]),
+    run_program(Text, [goal(main)], _, Output).
