@@ -5,11 +5,12 @@ SOEXT     ?= so
 CARGO     ?= cargo
 PACKSODIR ?= lib/$(shell $(SWIPL) -g "current_prolog_flag(arch,A),write(A)" -t halt 2>/dev/null)
 EXAMPLE   ?= obstacle_avoidance
+FUZZ      ?= 600
 
 TESTS   = $(wildcard tests/prolog/test_*.pl tests/behavior/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-endings check-torture check-cases mutants check-all check-night check-old check-dist playground check-playground \
+.PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-endings check-torture check-fuzz check-cases mutants check-all check-night check-old check-dist playground check-playground \
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
         check-site lint bench pictures doc site dist demo install clean distclean realclean help
 
@@ -82,7 +83,7 @@ check-install:
 # last passed.
 check-all: lint check
 	$(MAKE) dist
-	$(MAKE) check-torture COUNT=1000
+	$(MAKE) check-torture COUNT=1000 FUZZ=30
 	$(MAKE) mutants SAMPLE=40 LEAST=70 \
 	    SINCE=$$(sed -n 's/.* on commit \([0-9a-f]*\),.*/\1/p' docs/checked.md)
 	$(MAKE) check-playground
@@ -141,9 +142,17 @@ check-bench: build
 check-endings: build
 	@$(WITH_PYTHON) tests/torture/torture.py --self-test && tests/torture/torture.py --count 150
 
-# Random programs, of which `make check` has a hundred and fifty
-check-torture: build
+# Random programs, random calls of each predicate, and random input for each reader of what others
+# send: FUZZ seconds for each
+check-torture: build check-fuzz
 	@tests/torture/torture.py --count $(or $(COUNT),10000)
+	@EV3DEV_TEST_PERCENT=$$((2 * $(FUZZ))) tests/run.sh tests/behavior/test_odd_terms.pl
+
+# Random input for each reader, FUZZ seconds for each; downloads bolero the first time
+check-fuzz: export BOLERO_RANDOM_TEST_TIME_MS = $(FUZZ)000
+check-fuzz: export BOLERO_RANDOM_ITERATIONS = 1000000000
+check-fuzz:
+	@cd fuzz && $(CARGO) test --release --locked --quiet --no-fail-fast
 
 # Ten thousand moves, signals, worlds, sets of rules and odd calls, 1000 maps, and all cases of
 # which `make check` has a fifth

@@ -8,6 +8,10 @@ mod head;
 mod page;
 mod site;
 
+#[cfg(feature = "fuzz")]
+#[doc(hidden)]
+pub mod fuzz;
+
 pub use self::page::{Heard, Page};
 pub use self::site::{Made, Site};
 

@@ -42,7 +42,7 @@ pub struct Page {
 
 /// A message that has come.
 #[derive(Debug)]
-struct Reading {
+pub(crate) struct Reading {
     bytes: Vec<u8>,
     /// The beginning of a message that comes in parts.
     begun: Option<Vec<u8>>,
@@ -51,7 +51,7 @@ struct Reading {
 }
 
 /// A message; its fault is the code for the other side.
-enum Message {
+pub(crate) enum Message {
     Line(String),
     Ping(Vec<u8>),
     Pong,
@@ -67,9 +67,7 @@ impl Page {
         stream.set_nodelay(true)?;
         stream.set_write_timeout(Some(READING))?;
         (&stream).write_all(answer)?;
-        let (bytes, heard) = (Vec::new(), Instant::now());
-        let reading = Mutex::new(Reading { bytes, begun: None, heard, is_asked: false });
-        Ok(Self { stream, writing: Mutex::new(()), reading })
+        Ok(Self { stream, writing: Mutex::new(()), reading: Mutex::new(Reading::new()) })
     }
 
     /// Sends a text. If the other side does not take it, the connection is over.
@@ -175,14 +173,18 @@ fn frame(kind: u8, data: &[u8]) -> Vec<u8> {
 }
 
 impl Reading {
-    fn take(&mut self, bytes: &[u8]) {
+    pub(crate) fn new() -> Self {
+        Reading { bytes: Vec::new(), begun: None, heard: Instant::now(), is_asked: false }
+    }
+
+    pub(crate) fn take(&mut self, bytes: &[u8]) {
         self.bytes.extend(bytes);
         self.heard = Instant::now();
         self.is_asked = false;
     }
 
     /// The next message, if all of it has come.
-    fn message(&mut self) -> Option<Result<Message, u16>> {
+    pub(crate) fn message(&mut self) -> Option<Result<Message, u16>> {
         loop {
             let (is_last, kind, data) = match self.frame()? {
                 Ok(frame) => frame,
