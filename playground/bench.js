@@ -2,6 +2,7 @@
 
 import { Console } from './console.js';
 import { Machine } from './machine.js';
+import { keepProgram, programs } from './programs.js';
 import { fromFragment, toFragment } from './share.js';
 import { Text } from './text.js';
 import { Tone } from './tone.js';
@@ -35,30 +36,59 @@ let program = null;
 /** What was said of lines when the program was loaded, and by what the last goal failed. */
 let found = [];
 let failed = null;
+/** The exercise of the course that is open; the programs that everybody has; and the text of this
+    one as it was kept last. */
+let task = '';
+let known = [];
+let former = null;
 
 window.ev3dev = { machine, editor, state };
 
 // ----------------------------------------------------------------- what is kept
 
+/** What this tab had; if it is new, what any tab had last. */
 function read() {
-  try {
-    return JSON.parse(localStorage.getItem(KEY)) ?? {};
-  } catch {
-    return {};
+  for (const store of ['sessionStorage', 'localStorage']) {
+    try {
+      const found = JSON.parse(window[store].getItem(KEY));
+      if (found) return found;
+    } catch { /* It is not kept where a browser does not allow it. */ }
+  }
+  return {};
+}
+
+const present = () => ({ name: name(), text: editor.text, world: machine.world, task });
+
+function keep() {
+  for (const store of ['sessionStorage', 'localStorage']) {
+    try {
+      window[store].setItem(KEY, JSON.stringify(present()));
+    } catch { /* as above */ }
   }
 }
 
-function keep() {
-  try {
-    localStorage.setItem(KEY, JSON.stringify({ name: $('name').value, text: editor.text, world: machine.world }));
-  } catch { /* It is not kept where a browser does not allow it. */ }
+/** The user's own text is kept by its name before another one comes. */
+function keepOwn() {
+  const now = present();
+  if (!now.text.trim() || now.text === FIRST || known.some(({ text: words }) => words === now.text)) return null;
+  const title = keepProgram(now, former);
+  former = now.text;
+  return title;
 }
 
-function show({ name, text: words, world }) {
-  $('name').value = name;
+/** Another program, in the place of this one. */
+function show({ name: title, text: words, world, task: exercise = '' }, about = '') {
+  const before = present();
+  const own = keepOwn();
+  $('name').value = title;
   editor.text = words;
+  former = words;
+  task = exercise;
+  for (const id of ['task', 'check']) $(id).hidden = !task;
   if (world) begin(world);
   keep();
+  if (own) notice(`${about} Your ${own} is kept: it is in the list under My programs.`.trim(), { seconds: 10, act: ['Back to mine', () => show(before)] });
+  else if (about) notice(about, { seconds: 10 });
 }
 
 /** Begins a world and a robot by their lines. */
@@ -111,10 +141,12 @@ function heard(message) {
       console_.was(message.line);
     }
   }
+  else if (what === 'check') checked(message);
   else if (what === 'run' || what === 'load') {
     found = errors;
     editor.errors(found);
     if (errors.some(({ kind }) => kind === 'error')) {
+      showPart('program');
       editor.goTo(errors.find(({ kind }) => kind === 'error').line);
       console_.say('stop', 'The program was not started: see the lines with a mark.');
     }
@@ -132,7 +164,8 @@ function name() {
 
 function run() {
   if (program?.state === 'running') return stop();
-  if (!machine.send(`run ${name()} ${editor.text}`)) notice('Prolog is not ready yet.', { seconds: 3 });
+  if (machine.send(`run ${name()} ${editor.text}`)) showPart('robot');
+  else notice('Prolog is not ready yet.', { seconds: 3 });
   return true;
 }
 
@@ -167,6 +200,7 @@ $('name').addEventListener('change', () => {
   $('name').value = name();
   keep();
 });
+addEventListener('pagehide', () => keepOwn());
 $('save').addEventListener('click', () => download(name(), editor.text, 'text/plain'));
 $('open').addEventListener('click', () => $('file').click());
 $('file').addEventListener('change', async () => {
@@ -176,7 +210,7 @@ $('file').addEventListener('change', async () => {
 });
 
 $('share').addEventListener('click', async () => {
-  $('link').value = `${location.href.replace(/#.*/, '')}#${await toFragment({ name: name(), text: editor.text, world: machine.world })}`;
+  $('link').value = `${location.href.replace(/#.*/, '')}#${await toFragment(present())}`;
   $('shared').showModal();
   $('link').select();
 });
@@ -186,50 +220,109 @@ $('copy').addEventListener('click', async () => {
   notice('The link is copied.', { seconds: 3 });
 });
 
-for (const tab of $('tabs').children) {
-  tab.addEventListener('click', () => {
-    for (const each of $('tabs').children) pressed(each, each === tab);
-    toggle(document.body, 'shows-robot', tab.dataset.shows === 'robot');
+/** On a phone there is room for one of them. */
+function showPart(part) {
+  for (const each of $('tabs').children) pressed(each, each.dataset.shows === part);
+  toggle(document.body, 'shows-robot', part === 'robot');
+}
+for (const tab of $('tabs').children) tab.addEventListener('click', () => showPart(tab.dataset.shows));
+
+const stars = (points, of) => '★'.repeat(Math.round(3 * points / of)).padEnd(3, '☆');
+
+async function examples() {
+  known = await (await fetch('examples.json')).json();
+  for (const label of new Set(known.map(({ group }) => group))) {
+    $('examples').append(el('optgroup', { label }, ...known.filter(({ group }) => group === label)
+      .map(({ name: value, about }) => el('option', { value, title: about }, `${value}: ${about}`))));
+  }
+  $('examples').addEventListener('focus', mine);
+  $('examples').addEventListener('change', () => {
+    const { value } = $('examples');
+    $('examples').value = '';
+    const own = programs().find(({ name: title }) => value === `mine:${title}`);
+    if (own) show(own);
+    else choose(known.find(({ name: title }) => title === value));
   });
 }
 
-async function examples() {
-  const all = await (await fetch('examples.json')).json();
-  for (const label of new Set(all.map(({ group }) => group))) {
-    $('examples').append(el('optgroup', { label }, ...all.filter(({ group }) => group === label)
-      .map(({ name: value, about }) => el('option', { value, title: about }, `${value}: ${about}`))));
-  }
-  $('examples').addEventListener('change', () => {
-    const found = all.find(({ name: value }) => value === $('examples').value);
-    $('examples').value = '';
-    if (!found) return;
-    const before = { name: $('name').value, text: editor.text, world: machine.world };
-    show({ name: `${found.name}.pl`, text: found.text, world: found.lines });
-    notice(found.about, { seconds: 10, act: ['Back to mine', () => show(before)] });
-  });
+/** An example, or an exercise with its task. */
+function choose(found) {
+  if (!found) return;
+  show({ name: `${found.name}.pl`, text: found.text, world: found.lines, task: found.task ? found.name : '' }, found.about);
+  if (found.task) showTask();
 }
+
+function mine() {
+  const all = programs();
+  $('mine').hidden = !all.length;
+  $('mine').replaceChildren(...all.map(({ name: title }) => el('option', { value: `mine:${title}` }, title)));
+}
+
+// ----------------------------------------------------------------- the course
+
+function showTask() {
+  const found = known.find(({ name: title }) => title === task);
+  if (!found) return;
+  // It was made of the pack's own files when the page was built.
+  $('tasked-text').innerHTML = `${found.task}<p>Here <b>Check</b> does what <code>swipl ev3dev try</code> does.</p>`;
+  $('tasked').showModal();
+  $('tasked').scrollTop = 0;
+}
+
+function check() {
+  if (program?.state === 'running') return;
+  if (machine.send(`check ${name()} ${task} ${editor.text}`)) console_.say('mark', 'Check: the program runs in the open worlds of the exercise, as fast as it can.');
+  else notice('Prolog is not ready yet.', { seconds: 3 });
+}
+
+function checked({ points, of, text: words }) {
+  text($('checked-points'), `${stars(points, of)} ${points} of ${of} points`);
+  text($('checked-text'), words);
+  console_.say('mark', `Check: ${points} of ${of} points.`);
+  $('checked').showModal();
+}
+
+/** The worst run was the last one: the slider goes through it. */
+function film() {
+  const { ev3view, document: page } = $('robot').contentWindow;
+  const last = ev3view.state().time;
+  let t = 0;
+  showPart('robot');
+  const play = setInterval(() => {
+    t += Math.max(0.1, last / 400);
+    page.dispatchEvent(new CustomEvent('ev3dev-time', { detail: { t: Math.min(t, last - 0.01) } }));
+    if (t >= last || program?.state === 'running') clearInterval(play);
+  }, 40);
+}
+
+$('task').addEventListener('click', showTask);
+$('check').addEventListener('click', check);
+$('film').addEventListener('click', film);
 
 async function words() {
   editor.words = await (await fetch('words.json')).json();
 }
 
-/** A link has a program in it. */
+/** A link has a program in it, or names an exercise: #task=03. */
 async function opened() {
-  const shared = location.hash.length > 1 ? await fromFragment(location.hash.slice(1)).catch(() => null) : null;
-  if (location.hash.length > 1) {
-    history.replaceState(null, '', location.pathname + location.search);
-    if (!shared) notice('The link is not complete: its program cannot be read.', { bad: true });
-  }
-  if (shared) {
-    const before = kept.text;
-    show(shared);
-    if (before && before !== shared.text) notice('This program came with the link.', { act: ['Back to mine', () => show(kept)] });
-  } else show(kept.text ? kept : { name: 'my_robot.pl', text: FIRST });
+  const [, exercise] = /^#task=([\w-]+)$/.exec(location.hash) ?? [];
+  const shared = location.hash.length > 1 && !exercise ? await fromFragment(location.hash.slice(1)).catch(() => null) : null;
+  const isLink = location.hash.length > 1;
+  if (isLink) history.replaceState(null, '', location.pathname + location.search);
+  await offered;
+  if (!editor.text) show(kept.text ? kept : { name: 'my_robot.pl', text: FIRST });
+  if (exercise) {
+    const found = known.find(({ task: has, name: title }) => has && title.startsWith(exercise));
+    if (found) choose(found);
+    else notice(`There is no exercise ${exercise}.`, { bad: true });
+  } else if (shared) show(shared, 'This program came with the link.');
+  else if (isLink) notice('The link is not complete: its program cannot be read.', { bad: true });
 }
 
+const offered = examples();
 addEventListener('hashchange', opened);
 await opened();
-await Promise.all([examples(), words()]);
+await words();
 if ('serviceWorker' in navigator) navigator.serviceWorker.register('offline.js').catch(() => {});
 
 /** For tests. */

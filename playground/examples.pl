@@ -1,6 +1,6 @@
 % Prints the examples that run in a page, and the skeletons of the course, as JSON: a list of
 % objects with group, name, about, which is the first sentence of the file, text, and lines of
-% docs/view-protocol.md that begin its world.
+% docs/view-protocol.md that begin its world; of an exercise also its task, as Markdown.
 %
 %   swipl -p library=prolog playground/examples.pl EXAMPLE...
 
@@ -39,7 +39,10 @@ skeleton(Json) :-
     exercise_seeds(Exercise, open, [Seed|_]),
     exercise_world(Exercise, Seed, World),
     exercise_setting(Exercise, robot(Robot), default),
-    entry('Course', Name, Skeleton, World, Robot, Json).
+    entry('Course', Name, Skeleton, World, Robot, json(Members)),
+    atom_concat(Folder, '/task.md', Task),
+    read_file_to_string(Task, Text, [encoding(utf8)]),
+    Json = json([task=Text|Members]).
 
 entry(Group, Name, File, World, Robot,
       json([group=Group, name=Name, about=About, text=Text, lines=[RobotLine, WorldLine]])) :-

@@ -14,10 +14,19 @@ const LIBRARIES = ['ev3dev', 'ev3dev/sim', 'ev3dev/drive', 'ev3dev/events', 'ev3
 const [modules, state] = process.argv.slice(2);
 const { swipl, swiplWasm, locateFile } = swiplOf(modules);
 const said = [];
-/** library(qsave) names it; here nothing is loaded by it. */
-const shlib = ':- module(shlib, [current_foreign_library/2]).\n:- dynamic current_foreign_library/2.\n';
+/** Libraries that the build lacks, and that are named by what is loaded here. Nothing calls them,
+    but for directories that are made and removed by programs of the system. */
+const LACKING = {
+  shlib: ':- module(shlib, [current_foreign_library/2]).\n:- dynamic current_foreign_library/2.\n',
+  'http/json': ':- module(json, [json_write/2]).\njson_write(_, _) :- fail.\n',
+  process: `:- module(process, [process_create/3, process_group_kill/2, process_kill/2, process_wait/2, process_wait/3]).
+process_create(_, Arguments, _) :- ( append(_, [file(Folder)], Arguments), Arguments = ['-c'|_] -> delete_directory_and_contents(Folder) ; true ).
+process_group_kill(_, _).\nprocess_kill(_, _).\nprocess_wait(_, exit(0)).\nprocess_wait(_, exit(0), _).\n`,
+};
 const started = await startProlog({
-  swipl, swiplWasm, library: library(), arguments: ['-q', '-p', 'library=/pack/prolog'], files: { ...pack(), '/swipl/library/shlib.pl': shlib },
+  swipl, swiplWasm, library: library(), arguments: ['-q', '-p', 'library=/pack/prolog'], files: {
+    ...pack(), ...Object.fromEntries(Object.entries(LACKING).map(([name, text]) => [`/swipl/library/${name}.pl`, text])),
+  },
   host: { say: (text) => said.push(text) },
   module: { locateFile, print: (line) => said.push(line), printErr: (line) => said.push(line), stdin: () => null },
 });

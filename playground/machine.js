@@ -89,7 +89,7 @@ export class Machine {
     if (!this.open) return false;
     if (/^(choose|begin) /.test(line)) this.begun.push(line);
     this.worker.postMessage(line);
-    if (/^(run|load|goal|more) /.test(line)) {
+    if (/^(run|load|check|goal|more) /.test(line)) {
       this.before = this.wanted;
       this.on.runs();
     }

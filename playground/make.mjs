@@ -8,10 +8,12 @@ import path from 'node:path';
 import { createRequire } from 'node:module';
 import { gzipSync } from 'node:zlib';
 import { pack as packed } from './archive.js';
-import { folder, home, library, pack, swiplOf } from './parts.js';
+import { course, folder, home, library, pack, swiplOf } from './parts.js';
 
 const [modules, to] = process.argv.slice(2);
-const esbuild = createRequire(path.resolve(modules, 'package.json'))('esbuild-wasm');
+const need = createRequire(path.resolve(modules, 'package.json'));
+const esbuild = need('esbuild-wasm');
+const { marked } = need('marked');
 const here = (name) => path.join(home, 'playground', name);
 const { locateFile } = swiplOf(modules);
 
@@ -22,7 +24,11 @@ fs.mkdirSync(path.join(to, 'view'), { recursive: true });
 for (const [name, bytes] of Object.entries(folder(path.join(home, 'prolog/ev3dev/view'), 'view'))) fs.writeFileSync(path.join(to, name), bytes);
 fs.copyFileSync(here('wire.js'), path.join(to, 'view/wire.js'));
 for (const name of ['index.html', 'bench.css', 'patience.js']) fs.copyFileSync(here(name), path.join(to, name));
-for (const name of ['examples.json', 'words.json']) fs.copyFileSync(path.join(modules, name), path.join(to, name));
+fs.copyFileSync(path.join(modules, 'words.json'), path.join(to, 'words.json'));
+// A task is a part of the pack, and becomes HTML here.
+const examples = JSON.parse(fs.readFileSync(path.join(modules, 'examples.json'), 'utf8'));
+for (const each of examples) if (each.task) each.task = marked.parse(each.task);
+fs.writeFileSync(path.join(to, 'examples.json'), JSON.stringify(examples));
 fs.copyFileSync(locateFile('swipl-web.js'), path.join(to, 'swipl-web.js'));
 
 const options = { bundle: true, minify: true, target: 'es2022', nodePaths: [path.resolve(modules, 'node_modules')], logLevel: 'warning', legalComments: 'none' };
@@ -32,7 +38,7 @@ await esbuild.build({ ...options, entryPoints: [here('worker.js')], format: 'iif
 
 const bytes = gzipSync(packed({
   'swipl-web.wasm': fs.readFileSync(locateFile('swipl-web.wasm')), 'swipl-web.data': fs.readFileSync(locateFile('swipl-web.data')),
-  'ev3dev.wasm': library(), 'state.prc': fs.readFileSync(path.join(modules, 'state.prc')), ...pack(),
+  'ev3dev.wasm': library(), 'state.prc': fs.readFileSync(path.join(modules, 'state.prc')), ...pack(), ...course(),
   // What examples load from beside them
   ...Object.fromEntries(['grid_planner', 'plnxt'].map((name) => [`/home/web_user/${name}.pl`, fs.readFileSync(path.join(home, `examples/${name}.pl`))])),
 }), { level: 9 });

@@ -34,6 +34,9 @@ export const library = () => fs.readFileSync(path.join(home, 'target/page/ev3dev
 /** The pack as it is loaded in a page. */
 export const pack = () => ({
   ...folder(path.join(home, 'prolog'), '/pack/prolog', (file) => !/\/view\/[^/]*\.(?!pl$)/.test(file)),
-  '/pack/playground/session.pl': fs.readFileSync(path.join(home, 'playground/session.pl')),
+  ...folder(path.join(home, 'playground'), '/pack/playground', (file) => /(session|check)\.pl$/.test(file)),
   '/pack/pack.pl': fs.readFileSync(path.join(home, 'pack.pl')),
 });
+
+/** The exercises of the course, which a page marks. */
+export const course = () => Object.fromEntries(Object.entries(folder(path.join(home, 'course'), '/pack/course')).filter(([name]) => name.endsWith('exercise.pl')));

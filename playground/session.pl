@@ -10,15 +10,17 @@
 :- use_module(library(ev3dev/sim), []).
 :- use_module(library(ev3dev/time), [wait/1]).
 :- use_module('../prolog/ev3dev/private/native/native',
-              [ view_hear_/3, view_held_/0, view_open_/0, view_pace_/1,
+              [ brick_use_/1, view_hear_/3, view_held_/0, view_open_/0, view_pace_/1,
                 view_say_/2, view_step_/2, view_stop_motors_/0,
                 view_thread_/1 ]).
-:- use_module('../prolog/ev3dev/private/explain/last_goal',
-              [used_robot/0, watch_goals/1]).
+:- use_module('../prolog/ev3dev/private/run/brick', [brick/1]).
+:- use_module(check, [checked/4, checking/0]).
+:- use_module('../prolog/ev3dev/private/errors/frames', [program/1]).
 :- use_module('../prolog/ev3dev/private/view/goals', [goal_solve/4]).
 :- use_module('../prolog/ev3dev/private/view/jog', [jog_round/2]).
 :- use_module('../prolog/ev3dev/private/view/log',
-              [error_text/2, lines_text/2, note/2, watch_messages/0]).
+              [ error_text/2, leave_messages/0, lines_text/2, note/2,
+                watch_messages/0 ]).
 :- use_module('../prolog/ev3dev/private/view/page',
               [page_says/2, page_settings/2, word_rest/3]).
 :- use_module('../prolog/ev3dev/private/view/program',
@@ -35,6 +37,7 @@ these:
 |---|---|
 | `run NAME TEXT` | load TEXT as the program NAME, and run it |
 | `load NAME TEXT` | load it only |
+| `check NAME EXERCISE TEXT` | try it on an exercise of the course |
 | `goal N TEXT`, `more N`, `enough N` | as there |
 
 `run` and `load` are answered by `done` with `errors`, a list of
@@ -100,9 +103,14 @@ begin :-
     ev3dev_sim:sim_start(room, [seed(1)]),
     as_hand(view_pace_(1.0)).
 
-%   What a person does takes no simulated time.
+%   What a person does takes no simulated time. It concerns the brick that is
+%   shown, and the program goes on with its own.
 as_hand(Goal) :-
-    setup_call_cleanup(view_thread_(true), once(Goal), view_thread_(false)).
+    brick(Brick),
+    setup_call_cleanup(
+        view_thread_(true),
+        once(Goal),
+        ( view_thread_(false), ignore(brick_use_(Brick)) )).
 
 % ---------------- LINES
 
@@ -138,6 +146,10 @@ attend(Line) :-
     (   memberchk(Word, [run, load])
     ->  word_rest(Rest, Name, Text),
         program(Word, Name, Text)
+    ;   Word == check
+    ->  word_rest(Rest, Name, Rest1),
+        word_rest(Rest1, Exercise, Text),
+        check(Name, Exercise, Text)
     ;   Word == goal
     ->  word_rest(Rest, Number0, Text),
         atom_number(Number0, Number),
@@ -157,18 +169,9 @@ hand(Line) :-
 %   The program begins as in a Prolog that was just started, in the world as it
 %   is.
 program(Word, Name, Text) :-
-    forall(retract(program_file(Former)),
-           unload_file(Former)),
+    forget_program,
     forall(ev3dev_brick:forget(0), true),
-    forall(( predicate_property(user:Head, dynamic),
-             \+ predicate_property(user:Head, imported_from(_)),
-             \+ predicate_property(user:Head, multifile) ),
-           retractall(user:Head)),
-    absolute_file_name(Name, File),
-    setup_call_cleanup(
-        open(File, write, Out, [encoding(utf8)]),
-        write(Out, Text),
-        close(Out)),
+    program_written(Name, Text, File),
     assertz(program_file(File)),
     retractall(found(_, _, _)),
     retractall(tracing_goals),
@@ -191,6 +194,38 @@ program(Word, Name, Text) :-
     ->  goal(Goal, 0)
     ;   note(warning, "The program is loaded. It has no start/0 to begin with: \c
                        type a query.")
+    ).
+
+forget_program :-
+    retractall(program_file(_)),
+    forall(( program(Former), \+ sub_atom(Former, 0, _, _, '/pack/') ),
+           unload_file(Former)),
+    forall(( predicate_property(user:Head, dynamic),
+             \+ predicate_property(user:Head, imported_from(_)),
+             \+ predicate_property(user:Head, multifile) ),
+           retractall(user:Head)).
+
+program_written(Name, Text, File) :-
+    absolute_file_name(Name, File),
+    setup_call_cleanup(
+        open(File, write, Out, [encoding(utf8)]),
+        write(Out, Text),
+        close(Out)).
+
+%   Try the program on an exercise of the course.
+check(Name, Exercise, Text) :-
+    program_written(Name, Text, File),
+    atomic_list_concat(['/pack/course/', Exercise, '/exercise.pl'], Path),
+    leave_messages,
+    running(call_cleanup(
+                checked(File, Path, ev3dev_playground:forget_program, Found),
+                watch_messages)),
+    (   nonvar(Found)
+    ->  Found = found(Points, Of, Seed, Said),
+        page(Page),
+        view_say_(Page, json([ type=done, what=check, points=Points, of=Of,
+                               seed=Seed, text=Said ]))
+    ;   true
     ).
 
 loaded(File) :-
@@ -258,19 +293,22 @@ entry(_, Goal) :-
 goal(Text, Number) :-
     page(Page),
     retractall(raised(_)),
-    watch_goals(Text),
     running(traced(goal_solve(Text, Page, Number, answered))),
     (   retract(raised(Line))
     ->  view_say_(Page, json([type=raised, line=Line]))
     ;   true
     ).
 
-%   Natively the toplevel says so.
+%   The page's version of Prolog cannot say which goal it was.
 :- multifile ev3dev_view_goals:failed/1.
 
 ev3dev_view_goals:failed(Goal) :-
-    used_robot,
-    print_message(warning, ev3dev(failed(Goal))).
+    callable(Goal),
+    program_file(File),
+    predicate_property(user:Goal, file(File)),
+    format(string(Said), "~p is false: a goal in it has failed. To see which \c
+                          one, type `trace, ~p.`", [Goal, Goal]),
+    note(warning, Said).
 
 %   A program may end itself, not Prolog.
 :- redefine_system_predicate(user:halt).
@@ -279,10 +317,14 @@ ev3dev_view_goals:failed(Goal) :-
 user:halt :-
     halt(0).
 
-user:halt(_) :-
-    ev3dev_playground:halted.
+user:halt(Status) :-
+    ev3dev_playground:halted(Status).
 
-halted :-
+halted(Status) :-
+    checking,
+    !,
+    throw(ev3dev_halt(Status)).
+halted(_) :-
     view_stop_motors_,
     note(stop, "halt: the program ends, and all motors brake"),
     abort.
@@ -381,6 +423,7 @@ answered(Word) :-
     set_prolog_flag(heartbeat, Beat).
 
 %   Lines that end a program.
+ends(check).
 ends(run).
 ends(load).
 ends(goal).
@@ -482,6 +525,7 @@ heard(Line) :-
 :- multifile ev3dev_sound:spoken/2.
 
 ev3dev_sound:spoken(Text, Wait) :-
+    \+ ev3dev_playground:checking,
     ev3dev_playground:speak(Text, Wait).
 
 speak(Text, Wait) :-
@@ -510,6 +554,7 @@ output_noted :-
 
 user:message_hook(Message, Kind, Lines) :-
     ev3dev_playground:began,
+    \+ ev3dev_playground:checking,
     ev3dev_playground:said(Kind, Message, Lines).
 
 said(informational, _, Lines) :-

@@ -168,6 +168,34 @@ in_directory(Directory, Paths, Goal, Seed,
     atom_concat(Directory, '/own/robot', Socket),
     atom_concat(Directory, '/own/told', Tells),
     atom_concat(Directory, '/output', Output),
+    (   Told == none
+    ->  ToldBy = ''
+    ;   ToldBy = Tells
+    ),
+    Paths = [Path|_],
+    (   runs_here(Path, run(Goal, Seed, Seconds), Output-ToldBy, Ended0)
+    ->  true
+    ;   in_process([Socket, ToldBy, Seed], Paths, Goal, Directory-Output,
+                   limits(Seconds, Sleep, Cpu, Memory, Shut), Ended0)
+    ),
+    printed(Output, Size, Text),
+    (   Size >= 1 << 20
+    ->  Ended = limit(output)
+    ;   Ended = Ended0
+    ),
+    (   Told == none
+    ->  true
+    ;   what_was_told(Tells, Told)
+    ).
+
+%   Where there are no processes, somebody else runs the program:
+%   runs_here(+Path, +Run, +Files, -Ended).
+
+:- multifile runs_here/4.
+:- dynamic runs_here/4.
+
+in_process([Socket, ToldBy, Seed], Paths, Goal, Directory-Output,
+           limits(Seconds, Sleep, Cpu, Memory, Shut), Ended) :-
     sim_time(Now),
     (   sim_fence_open_(Socket)
     ->  true
@@ -178,26 +206,13 @@ in_directory(Directory, Paths, Goal, Seed,
     ->  Until = inf
     ;   Until is Now + Seconds
     ),
-    (   Told == none
-    ->  ToldBy = ''
-    ;   ToldBy = Tells
-    ),
     processor_time(Cpu, Now, Until, AtMost),
     usage_begins(Used),
     setup_call_cleanup(
         start(Directory, [Socket, ToldBy, Seed], Output, Paths, Goal,
               AtMost-Memory-Shut, Pid),
-        served(Pid, Until, limits(Sleep, Cpu, Now, Memory), Used, Ended0),
-        ended(Pid, Directory, Shut)),
-    printed(Output, Size, Text),
-    (   Size >= 1 << 20
-    ->  Ended = limit(output)
-    ;   Ended = Ended0
-    ),
-    (   Told == none
-    ->  true
-    ;   what_was_told(Tells, Told)
-    ).
+        served(Pid, Until, limits(Sleep, Cpu, Now, Memory), Used, Ended),
+        ended(Pid, Directory, Shut)).
 
 %   A program that never had its turn has no output.
 

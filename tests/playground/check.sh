@@ -2,7 +2,7 @@
 # The playground: examples do the same in SWI-Prolog's WebAssembly build as natively, byte for
 # byte, and the page does what a person expects, in Chromium and in Firefox.
 #
-#   tests/playground/check.sh [--traces [EXAMPLE...] | --page [ARGUMENT...] | --figures |
+#   tests/playground/check.sh [--traces [EXAMPLE...] | --marks [EXERCISE...] | --page [ARGUMENT...] | --figures |
 #       --pictures]
 #
 # Arguments of --page go to `node --test`, in Chromium alone. --figures prints how long things
@@ -14,13 +14,18 @@ cd "$(dirname "$0")/../.."
 what=${1:---all}
 [ $# -eq 0 ] || shift
 case $what in
-    --traces) tools/playground.sh --state ;;
+    --traces | --marks) tools/playground.sh --state ;;
     --all) tools/playground.sh ;;
 esac
 case $what in
     --traces | --all) node tests/playground/traces.mjs target/playground "$@" ;;
 esac
-[ "$what" != --traces ] || exit 0
+case $what in
+    --marks | --all) node tests/playground/marks.mjs target/playground "$@" ;;
+esac
+case $what in
+    --traces | --marks) exit 0 ;;
+esac
 
 why=$(tools/modules.sh tests/view target/view) || { echo "skipped: the playground in a browser: $why"; exit 0; }
 firefox=${FIREFOX:-$(command -v firefox-esr || command -v firefox || true)}

@@ -2,7 +2,9 @@
 
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
+import fs from 'node:fs';
 import net from 'node:net';
+import path from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { browse, home, isFirefox, patient, until, violations } from '../view/session.mjs';
 
@@ -221,9 +223,9 @@ describe('the playground', () => {
     await idle(page);
   });
 
-  test('says which goal has failed', async () => {
+  test('says that the program has failed, and how to see where', async () => {
     await run(page, `${HEAD}start :- ${ROBOT}, go_cm(20, 3), drive(3).\ndrive(N) :- N > 10, go_cm(30, 2).\n`);
-    await said(page, /^line 3 start failed; its last goal was 3>10, in drive\/1/);
+    await said(page, /^start is false: a goal in it has failed.*`trace, start\.`/);
     await idle(page);
   });
 
@@ -355,6 +357,87 @@ describe('a link', () => {
     assert.match(await page.$eval('#notice-text', (box) => box.textContent), /not complete/);
     // Firefox says so on its console, too.
     page.problems = page.problems.filter((problem) => !/ReadableStream/.test(problem));
+    await page.end();
+  });
+});
+
+describe('the course', () => {
+  const exercise = (name) => fs.readFileSync(path.join(home, 'course/01-first-moves', `${name}.pl`), 'utf8');
+  const isOpen = (page, id) => until(() => page.$eval(id, (box) => box.open), id);
+
+  test('is a link: the task, the points of a try, and the worst run as a film', async () => {
+    const page = await visit({ fragment: '#task=01' });
+    await isOpen(page, '#tasked');
+    assert.match(await page.$eval('#tasked h1', (title) => title.textContent), /First moves/);
+    await page.click('#tasked .main');
+    assert.equal((await state(page)).text, exercise('skeleton'));
+    await page.click('#check');
+    await isOpen(page, '#checked');
+    assert.match(await page.$eval('#checked-points', (line) => line.textContent), /☆☆☆ 0 of 10 points/);
+    assert.match(await page.$eval('#checked-text', (box) => box.textContent), /it was never within 5 cm of 110-110/);
+    await page.click('#film');
+    await until(() => page.evaluate(() => document.getElementById('robot').contentDocument.getElementById('time-text').textContent.startsWith('4.3')), 'the end of the film');
+
+    await type(page, exercise('solution'));
+    await page.click('#check');
+    await isOpen(page, '#checked');
+    assert.match(await page.$eval('#checked-points', (line) => line.textContent), /★★★ 10 of 10 points/);
+    await page.click('#checked .text:not(.main)');
+    await type(page, 'start :- start_');
+    await page.click('#check');
+    await isOpen(page, '#checked');
+    assert.match(await page.$eval('#checked-text', (box) => box.textContent), /Line 1.*[Ss]yntax|Line 1.*[Ee]nd of file/);
+    await page.click('#checked .text:not(.main)');
+
+    // A program that does not end: STOP is as for any other.
+    await type(page, 'start :- repeat, fail.');
+    await page.click('#check');
+    await until(() => page.$eval('#run', (button) => button.textContent === 'Stop'), 'a try');
+    await page.click('#run');
+    await until(async () => (await state(page)).open && (await state(page)).program?.state === 'idle', 'the end of the try');
+    await page.reload();
+    await ready(page);
+    assert.equal(await page.$eval('#task', (button) => button.hidden), false);
+    await page.end();
+  });
+});
+
+describe('nothing is lost', () => {
+  const mine = (page) => page.evaluate(() => {
+    document.getElementById('examples').dispatchEvent(new Event('focus'));
+    return [...document.getElementById('mine').children].map(({ value }) => value);
+  });
+
+  test('a text that another one replaces is kept by its name', async () => {
+    const page = await visit();
+    assert.deepEqual(await mine(page), []);
+    await type(page, '% one\n');
+    await page.select('#examples', 'square');
+    assert.deepEqual(await mine(page), ['mine:my_robot.pl']);
+    await type(page, '% two\n');
+    await page.select('#examples', 'square');
+    assert.deepEqual(await mine(page), ['mine:square.pl', 'mine:my_robot.pl']);
+    await type(page, '% three\n');
+    await page.select('#examples', 'square');
+    assert.deepEqual(await mine(page), ['mine:square_2.pl', 'mine:square.pl', 'mine:my_robot.pl']);
+    await page.select('#examples', 'mine:my_robot.pl');
+    assert.equal((await state(page)).text, '% one\n');
+    await type(page, '% one, and more\n');
+    await page.select('#examples', 'mine:square_2.pl');
+    assert.equal((await state(page)).text, '% three\n');
+    await page.select('#examples', 'mine:my_robot.pl');
+    assert.equal((await state(page)).text, '% one, and more\n');
+    assert.equal((await mine(page)).length, 3);
+
+    // Another tab has its own text.
+    const other = patient(await page.browserContext().newPage());
+    await other.goto(url);
+    await until(() => other.evaluate(() => window.ev3dev?.state().open), 'Prolog');
+    await type(other, '% of another tab\n');
+    await page.reload();
+    await ready(page);
+    assert.equal((await state(page)).text, '% one, and more\n');
+    await other.close({ runBeforeUnload: true });
     await page.end();
   });
 });

@@ -44,18 +44,23 @@ cleans up after a goal.
 %
 %   Watch all programs that are loaded now; no goal of Query has been called.
 %   A debugger has its own break points, and while it traces, those here would
-%   be in its way.
+%   be in its way. In version 10.1 a goal at a break point gets other variables
+%   than its clause has, so nothing is watched there.
 
 watch_goals(Query) :-
     nb_setval(ev3dev_last_goal, []),
     nb_setval(ev3dev_used_robot, false),
-    (   ( current_prolog_flag(debug, true) ; debugs(Query) ; in_use )
+    (   ( current_prolog_flag(debug, true) ; debugs(Query) ; in_use ; unsafe )
     ->  forall(retract(watched(Clause, PC, _, _)),
                break(Clause, PC, false)),
         retractall(done(_, _))
     ;   forall(( program_file(File, Time), \+ done(File, Time) ),
                watch_file(File, Time))
     ).
+
+unsafe :-
+    current_prolog_flag(version, Version),
+    Version >= 100100.
 
 debugs(Query) :-
     compound(Query),
@@ -147,8 +152,7 @@ watch(Instruction, Clause, PC) :-
         ;   set(Clause, PC, nothing, Tail)
         )
     ;   compound(Instruction),
-        arg(1, Instruction, Called),
-        qualified(Called, Module:Name/Arity)
+        arg(1, Instruction, Module:Name/Arity)
     ->  functor(Head, Name, Arity),
         set(Clause, PC, Module:Head, Tail)
     ;   set(Clause, PC, none, Tail)
@@ -205,16 +209,10 @@ move(l_void(To), To-value(_)).
 
 depart(Clause, PC, At, Called) :-
     '$fetch_vm'(Clause, PC, Next, Instruction),
-    (   Instruction = i_depart(Called0),
-        qualified(Called0, Called)
+    (   Instruction = i_depart(Called)
     ->  At = PC
     ;   depart(Clause, Next, At, Called)
     ).
-
-%   Since version 10.1 the module user is not named.
-
-qualified(Module:Name/Arity, Module:Name/Arity).
-qualified(Name/Arity, user:Name/Arity).
 
 %!  watched(?Clause, ?PC, -Called, -Tail) is nondet.
 %

@@ -1,6 +1,7 @@
 :- module(ev3dev_marking_mark,
           [ marks/4,                    % +Exercise, +Files, +Options, -Marks
             tried/3,                    % +Exercise, +File, +Options
+            tried/4,                    % +Exercise, +File, +Options, -Marked
             check_solution/2            % +Exercise, +Options
           ]).
 :- use_module('../basics/fields', [goal_expansion/2, term_expansion/2]).
@@ -140,7 +141,16 @@ seeds(Read, Which, Options, Seeds) :-
 
 %!  tried(+Exercise, +File, +Options) is semidet.
 
-tried(Exercise0, File, Options) :-
+tried(Exercise, File, Options) :-
+    tried(Exercise, File, Options, Marked),
+    earned_all(Marked).
+
+%!  tried(+Exercise, +File, +Options, -Marked) is semidet.
+%
+%   The same, and Marked is the program with its mark. Fails only if the
+%   program has a world of its own.
+
+tried(Exercise0, File, Options, Marked) :-
     exercise_to_mark(Exercise0, Exercise, Read),
     \+ has_own_world(Read, File, Options),
     printed(Exercise, Read, open, File, Options, Marked),
@@ -153,8 +163,7 @@ tried(Exercise0, File, Options) :-
         ev3dev_marking_report:write_page(Page, Read, all, Marked),
         format("The picture: ~w~n", [Page])
     ;   true
-    ),
-    earned_all(Marked).
+    ).
 
 %   A simulation of its own is another one, in which a run takes a minute.
 
@@ -423,7 +432,16 @@ run_of(batch(_-Text, Read, Programs, Enclosed, _, _), Program-Seed,
     exercise_world(Read, Seed, World),
     exercise_setting(Read, robot(Robot), default).
 
+%   Where there are no processes, somebody else makes the runs:
+%   runs_here(+Jobs, +Exercise, +Programs, -Results).
+
+:- multifile runs_here/4.
+:- dynamic runs_here/4.
+
 made_results([], _, []) :-
+    !.
+made_results(Jobs, batch(Exercise, _, Programs, _, _, _), Results) :-
+    runs_here(Jobs, Exercise, Programs, Results),
     !.
 made_results(Jobs, Batch, Results) :-
     Batch = batch(Exercise, Read, Programs, Enclosed, _, Options),
