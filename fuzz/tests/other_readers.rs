@@ -83,11 +83,14 @@ fn formula(parts: &[Part], facts: usize) -> Formula {
     stack.pop().unwrap_or(Formula::TRUE)
 }
 
+/// A condition, the fact, and whether it becomes true.
+type AnyEffect = (Vec<Part>, u8, bool);
+
 #[derive(Debug, TypeGenerator)]
 struct AnyTask {
     facts: u8,
     initial: Vec<u8>,
-    actions: Vec<(Vec<Part>, Vec<(Vec<Part>, u8, bool)>, u32)>,
+    actions: Vec<(Vec<Part>, Vec<AnyEffect>, u32)>,
     rules: Vec<(u8, Vec<Part>)>,
     goal: Vec<Part>,
     is_cheapest: bool,
@@ -98,7 +101,7 @@ fn a_plan_has_the_actions_of_its_task() {
     check!().with_type::<AnyTask>().for_each(|any| {
         let facts = usize::from(any.facts % 16) + 1;
         let fact = |number: u8| if number > 252 { 999 } else { usize::from(number) % facts };
-        let effect = |(condition, at, value): &(Vec<Part>, u8, bool)| Effect {
+        let effect = |(condition, at, value): &AnyEffect| Effect {
             condition: formula(condition, facts),
             fact: fact(*at),
             value: *value,
