@@ -7,6 +7,7 @@ use crate::glue::state::brick_number;
 use crate::glue::terms::{Prolog, unify_atom};
 use ev3_driver::Error;
 use ev3_os::locked;
+use ev3_os::mailbox::readable;
 use ev3_sim::far::wire::{Desk, Line, Next};
 use ev3_sim::{Clock, Simulation};
 use std::collections::BTreeMap;
@@ -103,10 +104,14 @@ impl Fence {
         }
     }
 
-    /// Whether there is no question now.
+    /// Whether the program waits for nothing of the machine.
     fn is_silent(&mut self) -> bool {
-        let Some(desk) = &mut self.desk else { return true };
-        matches!(desk.hear(Duration::ZERO), Ok(Next::Idle | Next::Gone)) || !desk.is_waited_for()
+        let Some(desk) = &mut self.desk else {
+            return !readable(&self.listener, Duration::ZERO).unwrap_or(false);
+        };
+        // What is lost is found by who serves.
+        let _ = desk.hear(Duration::ZERO);
+        !desk.owes_answer()
     }
 }
 

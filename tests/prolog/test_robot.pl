@@ -17,6 +17,12 @@ with_robot(Tree, Sensors, Goal) :-
               ( set_robot(5.6, 10.6, outB, outC),
                 Goal )).
 
+with_drive(Tree, Goal) :-
+    with_drive(Tree, [], Goal).
+
+with_drive(Tree, Sensors, Goal) :-
+    patiently(Tree, with_robot(Tree, Sensors, Goal)).
+
 wheels(Attribute, Left-Right) :-
     get_attribute(outB, Attribute, Left),
     get_attribute(outC, Attribute, Right).
@@ -128,20 +134,20 @@ test(go_1_takes_an_expression,
                        wheels(speed_sp, S) )).
 test(go_2_turns_both_wheels_and_waits,
      [forall(behaving(Tree)), true(A == hold-hold)]) :-
-    with_robot(Tree, ( go(50, 180),
+    with_drive(Tree, ( go(50, 180),
                        wheels_near(180, 180, 3),
                        wheels(stop_action, A) )).
 test(go_2_has_the_sign_of_both,
      [forall(( behaving(Tree),
                member(Speed-Angle-D, [ -50-180-(-180), 50-(-180)-(-180),
                                        -50-(-180)-180 ]) ))]) :-
-    with_robot(Tree, ( go(Speed, Angle),
+    with_drive(Tree, ( go(Speed, Angle),
                        wheels_near(D, D, 3) )).
 test(go_cm_is_the_papers_formula,
      [forall(( behaving(Tree),
                member(Distance, [10, -3, 20.5]) ))]) :-
     Angle is Distance * 360 / (pi * 5.6),
-    with_robot(Tree, ( go_cm(20, Distance),
+    with_drive(Tree, ( go_cm(20, Distance),
                        wheels_near(Angle, Angle, 3) )).
 test(an_impossible_move_fails_and_writes_nothing,
      [ forall(( tree(Tree),
@@ -263,11 +269,11 @@ test(turn_2_is_the_papers_formula,
                member(Speed-Degrees-Sign, [20-90-1, 20-(-90)-1, -20-90-(-1), 20-45.5-1]) ))]) :-
     Left is Sign * 10.6 / 5.6 * Degrees,
     Right is -Left,
-    with_robot(Tree, ( turn(Speed, Degrees),
+    with_drive(Tree, ( turn(Speed, Degrees),
                        wheels_near(Left, Right, 3) )).
 test(turn_2_by_nothing_succeeds, [forall(( tree(Tree),
                                            member(Speed, [20, -20]) ))]) :-
-    with_robot(Tree, ( turn(Speed, 0),
+    with_drive(Tree, ( turn(Speed, 0),
                        wheels_near(0, 0, 1) )).
 test(an_impossible_turn_fails_and_writes_nothing,
      [ forall(( tree(Tree),
@@ -289,13 +295,13 @@ test(ends_within_a_degree_and_holds_both,
                 member(Speed-Degrees-Target, [ 40-90-90, 40-(-60)-(-60), -40-60-(-60) ]) )),
        true(A == hold-hold) ]) :-
     gyro(Gyro),
-    with_robot(Tree, Gyro, ( turn(Speed, Degrees),
+    with_drive(Tree, Gyro, ( turn(Speed, Degrees),
                              gyro_angle(Angle),
                              near(Angle, Target, 1),
                              wheels(stop_action, A) )).
 test(by_nothing_it_succeeds, [forall(tree(Tree))]) :-
     gyro(Gyro),
-    with_robot(Tree, Gyro, ( turn(20, 0), wheels_near(0, 0, 1) )).
+    with_drive(Tree, Gyro, ( turn(20, 0), wheels_near(0, 0, 1) )).
 test(starts_from_whatever_the_gyro_shows, [forall(behaving(Tree))]) :-
     gyro(Gyro),
     with_robot(Tree, Gyro, ( turn(50, 100),

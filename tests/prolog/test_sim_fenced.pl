@@ -168,7 +168,7 @@ test(it_is_killed, Ended == killed(9)) :-
             "    shell(Kill)."], Ended, _, _, []).
 test(it_does_not_use_the_robot, Ended-Text-Seconds == exit(0)-"hello\n"-0.0) :-
     fenced(["main :- write(hello), nl."], Ended, Text, at(Seconds, _), []).
-test(it_does_not_parse, true(sub_string(Text, _, _, _, "Syntax error"))) :-
+test(it_does_not_parse, true(sub_string(Text, _, _, _, "Operator expected"))) :-
     fenced(["main :- a b."], _, Text, _, []).
 test(it_is_called_by_another_goal, Text == "[a,'B']\n") :-
     fenced(["shows(X) :- print(X), nl."], exit(0), Text, _, [goal(shows([a, 'B']))]).

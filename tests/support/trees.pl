@@ -5,6 +5,7 @@
             current_tree/1,             % ?Tree
             on/2,                       % +Tree, :Goal
             on_slow_mount/2,            % +World, :Goal
+            patiently/2,                % +Tree, :Goal
             with_tree/2,                % +Tree, :Goal
             with_tree/3,                % +Tree, +Devices, :Goal
             with_sensor/4,              % +Tree, +Type, +World, :Goal
@@ -159,19 +160,11 @@ on(mount, Goal) :-
 
 %!  on_slow_mount(+World, :Goal)
 %
-%   Call Goal once with the files of a simulation through FUSE. A busy machine looks and
-%   commands late there: where Goal fails, the robot is slower the next time.
-
-:- multifile user:message_hook/3.
-:- dynamic user:message_hook/3.
+%   Call Goal once with the files of a simulation through FUSE, patiently/2.
 
 on_slow_mount(World, Goal) :-
-    member(Clock, [realtime, scaled(0.2), scaled(0.04)]),
-    setup_call_cleanup(
-        asserta((user:message_hook(_, error, _) :- Clock \== scaled(0.04)), Hook),
-        on_mount(World, [clock(Clock)], Goal),
-        erase(Hook)),
-    !.
+    patiently(mount, ( mount_clock(Clock),
+                       on_mount(World, [clock(Clock)], Goal) )).
 
 on_mount(World, Options, Goal) :-
     with_directory(Directory,

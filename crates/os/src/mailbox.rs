@@ -84,8 +84,9 @@ unsafe impl Send for Mailbox {}
 // Safety: the same.
 unsafe impl Sync for Mailbox {}
 
-/// Waits until there is something to read, for so long at the most; whether there is.
-pub fn readable(stream: &UnixStream, within: Duration) -> io::Result<bool> {
+/// Waits until there is something to read, or somebody who connects, for so long at the most;
+/// whether there is.
+pub fn readable(stream: &impl AsFd, within: Duration) -> io::Result<bool> {
     let within = Timespec::try_from(within).map_err(io::Error::other)?;
     match poll(&mut [PollFd::new(stream, PollFlags::IN)], Some(&within)) {
         Ok(count) => Ok(count > 0),
@@ -210,7 +211,8 @@ impl Mailbox {
         Some(sleeps.swap(0, Ordering::SeqCst) != 0)
     }
 
-    fn has_come(&self, to: Side) -> bool {
+    /// Whether there is a letter for this side that it has not answered.
+    pub fn has_come(&self, to: Side) -> bool {
         self.word(WHOSE).load(Ordering::SeqCst) == to.other().sign()
     }
 

@@ -9,6 +9,8 @@
             simulated_show/3,           % +Port, +Attribute, +Text
             simulated_jam/1,            % +Port
             simulated_pause/1,          % +Seconds
+            mount_clock/1,              % ?Clock
+            patiently/2,                % +Tree, :Goal
             last_written/2,             % +RelativeFile, -Text
             all_written/2,              % +RelativeDirectory, -Attributes
             simulating_program/3        % +Devices, +Text, -Program
@@ -27,6 +29,8 @@ within the process on the virtual clock (Kind is `simulator`), or as files
 through FUSE in real time (`mount`).
 */
 
+:- meta_predicate patiently(+, 0).
+
 :- dynamic told/1.                      % Goal: a command to the simulator
 
 simulated_start(Kind, Devices, Root) :-
@@ -38,7 +42,41 @@ simulated_start(Kind, Devices, Root) :-
     forall(member(Port-'rcx-motor', Devices), port_mode(Port, 'dc-motor')).
 
 clock(simulator, virtual).
-clock(mount, realtime).
+clock(mount, Clock) :-
+    mount_clock(Clock).
+
+%!  mount_clock(?Clock) is semidet.
+%
+%   That of the next mount.
+
+:- dynamic mount_clock_/1.
+
+mount_clock(Clock) :-
+    mount_clock_(Clock0),
+    !,
+    Clock = Clock0.
+mount_clock(realtime).
+
+%!  patiently(+Tree, :Goal)
+%
+%   Call Goal once. A busy machine looks and commands late on a mount: where
+%   Goal fails there, the robot is slower the next time.
+
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+patiently(mount, Goal) :-
+    !,
+    member(Clock, [realtime, scaled(0.2), scaled(0.04)]),
+    setup_call_cleanup(
+        ( asserta(mount_clock_(Clock), Ref),
+          asserta((user:message_hook(_, error, _) :- Clock \== scaled(0.04)),
+                  Hook) ),
+        once(Goal),
+        ( erase(Ref), erase(Hook) )),
+    !.
+patiently(_, Goal) :-
+    once(Goal).
 
 root(simulator, '/sys/class').
 root(mount, Root) :-

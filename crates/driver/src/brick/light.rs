@@ -20,8 +20,8 @@ use ev3_os::Errno;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// How long the timer's files may take to be there and to be open to us.
-const DELAYS_WITHIN: Duration = Duration::from_secs(1);
+/// How long the timer's files may take to be there and to be open to us, on a busy machine, too.
+const DELAYS_WITHIN: Duration = Duration::from_secs(5);
 
 /// No trigger.
 const NONE: &str = "none";

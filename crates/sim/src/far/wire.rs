@@ -354,6 +354,19 @@ impl Desk {
         matches!(parsed(&self.received), Ok(Some((question, _))) if !question.is_known)
     }
 
+    /// Whether the program waits for an answer, as far as what was received says. Questions whose
+    /// answers it knows may stand before the one that it waits for.
+    pub fn owes_answer(&self) -> bool {
+        let mut rest = &self.received[..];
+        while let Ok(Some((question, length))) = parsed(rest) {
+            if !question.is_known {
+                return true;
+            }
+            rest = &rest[length..];
+        }
+        self.mailbox.as_ref().is_some_and(|mailbox| mailbox.has_come(Side::Host))
+    }
+
     /// Takes over what is written of the next letter, if there is something.
     fn has_draft(&mut self) -> bool {
         let Some(mailbox) = self.mailbox.as_ref().filter(|_| self.received.is_empty()) else {
@@ -604,6 +617,23 @@ mod tests {
         assert_eq!(kept.answer(&question(Kind::Write, 100_000, motor)), None);
         kept.note(&question(Kind::Pass, 100_000, 0), &until(200_000));
         assert_eq!(kept.answer(&question(Kind::Write, 100_000, motor)), None);
+    }
+
+    #[test]
+    fn a_question_behind_known_ones_is_owed_an_answer() {
+        let mut desk = desk(&[]);
+        let asked = question(Kind::Pass, 1, 0);
+        let [known, unknown] =
+            [true, false].map(|is_known| framed(&Question { is_known, ..asked }).unwrap());
+        assert!(!desk.owes_answer());
+        desk.received = [&*known, &*known].concat();
+        assert!(!desk.owes_answer());
+        desk.mailbox.as_ref().unwrap().post(Side::Program, &unknown).unwrap();
+        assert!(desk.owes_answer());
+        desk.mailbox.as_ref().unwrap().post(Side::Host, &[0; 16]).unwrap();
+        assert!(!desk.owes_answer());
+        desk.received = [&*known, &*unknown].concat();
+        assert!(desk.owes_answer());
     }
 
     #[test]
