@@ -13,8 +13,8 @@ natives! {
     semidet fn "view_end_"(_context, _a, _b) { into_prolog_result(false) }
     /// view_shut_(_)
     semidet fn "view_shut_"(_context, _a) { into_prolog_result(false) }
-    /// sim_fence_open_(_)
-    semidet fn "sim_fence_open_"(_context, _a) { into_prolog_result(false) }
+    /// sim_fence_open_(_, _)
+    semidet fn "sim_fence_open_"(_context, _a, _b) { into_prolog_result(false) }
     /// sim_fence_join_(_)
     semidet fn "sim_fence_join_"(_context, _a) { into_prolog_result(false) }
     /// sim_fence_serve_(_, _, _)

@@ -26,6 +26,20 @@ natives! {
         }
     }
 
+    /// thought_begins_(-Inferences): how many this thread has made; fails if they take no time.
+    semidet fn "thought_begins_"(context, inferences) as call("ev3_time", 1) {
+        if devices().tree().thinking() == 0 {
+            return Err(PrologError::Failure);
+        }
+        inferences.unify(call.inferences()?)
+    }
+
+    /// thought_nothing_(+Inferences, +Before): what this thread has done since thought_begins_ said
+    /// that takes no time, nor do that many inferences before it.
+    semidet fn "thought_nothing_"(context, since, before) as call("ev3_time", 1) {
+        call.thought_nothing(since.get::<u64>()?.saturating_sub(before.get()?))
+    }
+
     /// guards_: the program may have guards from now on.
     semidet fn "guards_"(_context) {
         note_guards();

@@ -82,8 +82,9 @@ machine has to do.
         1-10.
       - open(Seeds)
         The runs that students can try. Default is the first three.
-      - robot(Robot), noise(Boolean)
-        As for sim_start/2.
+      - robot(Robot), noise(Boolean), thinking(Thinking)
+        As for sim_start/2. By `thinking(brick)` a program that computes for
+        long while its robot drives does what it would do on a brick.
       - cpu(Seconds)
         How much time of a processor a run may use. Default is 10. There is
         one second more for each second of the robot's time.

@@ -18,7 +18,8 @@
               [must_be_options/3, option/2, option/3]).
 :- use_module(private/run/brick,
               [ end_brick/1, in_brick/2, in_new_brick/1,
-                must_be_new_names/1, name_brick/3, new_brick/1 ]).
+                must_be_new_names/1, name_brick/3, named_brick/3,
+                new_brick/1, unname_brick/1 ]).
 :- use_module(private/simulation/random_seed,
               [begin_chance_of/1, end_chance/0, with_own_chance/1]).
 :- use_module(private/files/facts,
@@ -26,6 +27,7 @@
 :- use_module(private/simulation/time_limits,
               [clock_changes/1, forget_plans/0]).
 :- use_module(private/simulation/schedule, [run_due_goals/0]).
+:- use_module(private/simulation/thinking_rate, [thinking_rate/2]).
 :- use_module(private/simulation/turn_order, []).
 :- use_module(private/explain/hints, [tell_again/0]).
 :- use_module(private/run/waits, [event_period/2]).
@@ -96,6 +98,13 @@ clocks, and how several threads share the virtual one.
 %       before. Default is 1; but without the option only the virtual clock
 %       seeds the numbers of the thread. Other threads call set_random/1
 %       themselves.
+%     - thinking(+Thinking)
+%       What it costs to compute on the virtual clock: `free` (default), a
+%       number of inferences that take a second, or `brick`, 100000. At its
+%       next use of the robot the time passes that a thread has computed
+%       since the last one. So a program that searches while its robot drives
+%       does what it does on a brick, and the same each time in one version of
+%       Prolog. The flag `ev3dev_watchdog` holds for this time.
 %     - screen(+Bits)
 %       The bits per pixel of the screen: 32 (default) or 1, as with older
 %       versions of ev3dev.
@@ -114,6 +123,8 @@ clocks, and how several threads share the virtual one.
 %   @error domain_error(map_row, Row) for an unknown character or a second
 %          start
 %   @error domain_error(clock, Clock)
+%   @error domain_error(thinking, Thinking)
+%   @error permission_error(think, clock, Clock) if that is not virtual
 %   @error domain_error(sim_option, Option) if Option is not an option of this
 %          predicate
 %   @error domain_error(screen_bits, Bits)
@@ -127,7 +138,8 @@ sim_start(World) :-
 sim_start(World, Options) :-
     must_be_built,
     must_be_options(sim_option,
-                    [clock, robot, robots, noise, screen, seed], Options),
+                    [ clock, robot, robots, noise, screen, seed, thinking ],
+                    Options),
     option(clock(Clock0), Options, realtime),
     option(seed(Seed), Options, 1),
     option(noise(Noise), Options, false),
@@ -138,9 +150,11 @@ sim_start(World, Options) :-
     must_be(integer, Seed),
     must_be(boolean, Noise),
     must_be_screen(Bits),
+    thinking_rate(Options, Rate),
+    must_think(Rate, Clock),
     located_facts(world, World, LocatedWorld),
     pairs_keys(LocatedWorld, WorldFacts),
-    Native = options(Clock, Seed, Noise, Bits),
+    Native = options(Clock, Seed, Noise, Bits, Rate),
     (   option(robots(Robots), Options)
     ->  crowd_started(Robots, World, LocatedWorld, WorldFacts, Native,
                       Options)
@@ -156,6 +170,10 @@ sim_start(World, Options) :-
         note_world(World, Options)
     ),
     tell_again.
+
+%   The robots that sim_start/2 has made bricks, unless they were closed.
+:- dynamic robot_of_crowd/1.            % Brick
+:- volatile robot_of_crowd/1.
 
 %   Each robot gets a brick. Nothing is left of them if one cannot start.
 
@@ -176,7 +194,8 @@ crowd_started(Robots, World, LocatedWorld, WorldFacts, Native, Options) :-
           forall(member(robot(Brick, Name, _), Natives),
                  ( in_brick(Brick, ( set_added_facts([]),
                                      note_world(World, Options) )),
-                   name_brick(Name, Brick, sim(World)) )),
+                   name_brick(Name, Brick, sim(World)),
+                   assertz(robot_of_crowd(Brick)) )),
           until_seen(500),
           Started = true ),
         (   Started == true
@@ -236,6 +255,15 @@ clock_here(Clock0, Clock) :-
     ;   Clock = Clock0
     ).
 
+must_think(Rate, Clock) :-
+    (   Rate =\= 0,
+        Clock \== virtual
+    ->  throw_error(permission_error(think, clock, Clock), _,
+                    'by the clock of the wall thinking takes its own time: \c
+                     add clock(virtual)')
+    ;   true
+    ).
+
 clock(realtime).
 clock(virtual).
 clock(scaled(Factor)) :-
@@ -267,12 +295,20 @@ throw_fault(Kind, Source, _, _, Why) :-
 
 %!  sim_stop is semidet.
 %
-%   End the simulation. Fails if none runs. The tree that ev3_sysfs/1 or the
-%   environment had set before is in use again. If none was set, the next use
-%   of a device chooses one, as the first use of the program does: on a
-%   computer that is not an EV3 it starts a new simulation of the world
-%   `room`.
+%   End the simulation. Fails if none runs. After sim_start/2 with robots(_)
+%   all robots are closed, unless the brick in use is one of them. The tree
+%   that ev3_sysfs/1 or the environment had set before is in use again. If
+%   none was set, the next use of a device chooses one, as the first use of
+%   the program does: on a computer that is not an EV3 it starts a new
+%   simulation of the world `room`.
 
+sim_stop :-
+    \+ sim_active_,
+    robot_of_crowd(Brick),
+    named_brick(_, Brick, _),
+    !,
+    forall(( retract(robot_of_crowd(Robot)), named_brick(Name, Robot, _) ),
+           ( unname_brick(Name), end_brick(Robot) )).
 sim_stop :-
     clock_changes(( sim_stop_, forget_plans )),
     set_added_facts([]),

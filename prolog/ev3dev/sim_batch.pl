@@ -104,7 +104,7 @@ sim_batch(File, Test, Seeds, Scores, Options) :-
     must_be(list(integer), Seeds),
     must_be_options(sim_batch_option,
                     [ world, workers, sleep, cpu, progress, redis,
-                      clock, robot, noise, screen ], Options),
+                      clock, robot, noise, screen, thinking ], Options),
     take_options([world, workers, sleep, cpu, progress, redis], Options,
                  Own, Sim),
     option(world(World), Own, room),

@@ -9,12 +9,13 @@
               [ limit_option/2, limit_option/3, must_be_options/3,
                 option/3 ]).
 :- use_module(private/simulation/random_seed, [branch_seed/1]).
+:- use_module(private/simulation/thinking_rate, [thinking_rate/2]).
 :- use_module(private/batch/workplace, [end_workplace/1, new_workplace/2]).
 :- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/errors, [in_own_name/1, throw_error/3]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/native/native,
-              [ sim_fence_close_/0, sim_fence_open_/1,
+              [ sim_fence_close_/0, sim_fence_open_/2,
                 sim_fence_serve_/3, sim_fence_silent_/0 ]).
 :- use_module(private/processes/usage,
               [ usage_age/2, usage_begins/1, usage_beyond/3, usage_crowded/3,
@@ -97,6 +98,8 @@ Ended = over,
 %       network, sees no other processes, no files but its own and those of
 %       SWI-Prolog and the pack, and nothing of the environment. What it
 %       writes is in memory, 64 MB at most. Default is `false`.
+%     - thinking(Thinking)
+%       What it costs the program to compute, as in sim_start/2.
 %     - files(Files)
 %       Other files that it loads, which are its own, too. Default is [].
 %     - output(Text)
@@ -121,7 +124,8 @@ sim_fenced(File, Ended) :-
 sim_fenced(File, Ended, Options) :-
     must_be_options(sim_fenced_option,
                     [ goal, seconds, sleep, cpu, memory, enclosed, output,
-                      told, salt, files ], Options),
+                      told, salt, files, thinking ], Options),
+    thinking_rate(Options, Thinking),
     option(goal(Goal), Options, main),
     must_be(callable, Goal),
     limit_option(seconds(Seconds), Options),
@@ -151,7 +155,7 @@ sim_fenced(File, Ended, Options) :-
                                    [file_type(prolog), access(read)])),
     setup_call_cleanup(
         fence_directory(Directory),
-        in_directory(Directory, [Path|Files], Goal, Seed,
+        in_directory(Directory, [Path|Files], Goal, Seed-Thinking,
                      limits(Seconds, Sleep, Cpu, Megabytes, Enclosed), Ended,
                      Text, Told),
         ( sim_fence_close_, end_workplace(Directory) )).
@@ -163,7 +167,7 @@ fence_directory(Directory) :-
     atom_concat(Directory, '/own', Own),
     make_directory(Own).
 
-in_directory(Directory, Paths, Goal, Seed,
+in_directory(Directory, Paths, Goal, Seed-Thinking,
              limits(Seconds, Sleep, Cpu, Memory, Shut), Ended, Text, Told) :-
     atom_concat(Directory, '/own/robot', Socket),
     atom_concat(Directory, '/own/told', Tells),
@@ -197,7 +201,7 @@ in_directory(Directory, Paths, Goal, Seed,
 in_process([Socket, ToldBy, Seed], Paths, Goal, Directory-Output,
            limits(Seconds, Sleep, Cpu, Memory, Shut), Ended) :-
     sim_time(Now),
-    (   sim_fence_open_(Socket)
+    (   sim_fence_open_(Socket, Thinking)
     ->  true
     ;   throw_error(permission_error(fence, clock, realtime), _,
                     'the clock of the simulation must be virtual')

@@ -110,6 +110,7 @@ impl<'a, C: Prolog> Call<'a, C> {
         if !devices.tree().takes_turns() && !is_any_due() {
             return Ok(devices);
         }
+        self.think(&devices)?;
         self.wait_for(|about| devices.tree().turn(about))?;
         run_due_goals(self.context)?;
         // Another thread, or a goal, may have changed the tree.
@@ -132,6 +133,12 @@ impl<'a, C: Prolog> Call<'a, C> {
     /// This thread is about to start a motor, a `far` one or one of its own: the watchdog stops it
     /// if the program computes for too long.
     pub(crate) fn guard(&self, far: bool) -> PrologResult<()> {
+        signals::guard(far, self.limit()?);
+        Ok(())
+    }
+
+    /// For how long this thread may compute while a motor runs; zero is forever.
+    pub(crate) fn limit(&self) -> PrologResult<Duration> {
         let seconds = number_flag(c"ev3dev_watchdog").unwrap_or(0.0);
         if seconds.is_nan() || seconds < 0.0 {
             let [flag] = self.context.new_term_refs();
@@ -139,8 +146,7 @@ impl<'a, C: Prolog> Call<'a, C> {
             let text = "the flag ev3dev_watchdog is 0, or a number of seconds";
             return wrong_because(self, "seconds", &flag, text);
         }
-        signals::guard(far, Duration::try_from_secs_f64(seconds).unwrap_or_default());
-        Ok(())
+        Ok(Duration::try_from_secs_f64(seconds).unwrap_or_default())
     }
 
     /// A motor may be started: throws in a guard, and where nothing could stop the motor.

@@ -64,6 +64,11 @@ pub(crate) fn set_in_branch(is_in_branch: bool) {
     IS_IN_BRANCH.set(is_in_branch);
 }
 
+/// Whether this thread runs a branch.
+pub(crate) fn is_in_branch() -> bool {
+    IS_IN_BRANCH.get()
+}
+
 /// Whether this thread's bell has rung since the last call, and its goals can run.
 pub(crate) fn has_rung() -> bool {
     is_any_due()

@@ -12,5 +12,6 @@ pub(crate) mod signals;
 pub(crate) mod sources;
 pub(crate) mod state;
 pub(crate) mod terms;
+pub(crate) mod thinking;
 pub(crate) mod waiting;
 pub(crate) mod watch;

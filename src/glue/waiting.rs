@@ -217,6 +217,7 @@ impl<C: Prolog> Call<'_, C> {
         reason: &Term,
         ended: impl FnOnce(W::End) -> PrologResult<()>,
     ) -> PrologResult<bool> {
+        self.wait_goes_on()?;
         let tick = NEXT_TICK.get();
         for commands in LEFT.take() {
             self.stop_commanded(&commands)?;
@@ -229,6 +230,7 @@ impl<C: Prolog> Call<'_, C> {
                 Ok(Look::Again(end)) => {
                     SLICES.set(SLICES.get() + 1);
                     look_at(end);
+                    self.wait_pauses()?;
                     unify_atom(reason, "yield").map(|()| true)
                 }
             };
@@ -241,6 +243,9 @@ impl<C: Prolog> Call<'_, C> {
         SLICES.set(SLICES.get() + 1);
         let now = || state::devices().tree().now();
         let is_tick = due::has_rung() || is_tick_due(now);
+        if !is_tick {
+            self.wait_pauses()?;
+        }
         unify_atom(reason, if is_tick { "tick" } else { "pause" }).map(|()| true)
     }
 

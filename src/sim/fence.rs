@@ -27,6 +27,8 @@ const AHEAD: Duration = Duration::from_millis(100);
 
 struct Fence {
     listener: UnixListener,
+    /// How many inferences of the program take a second; 0 if they take no time.
+    thinking: u64,
     /// Once the program has connected.
     desk: Option<Desk>,
 }
@@ -66,7 +68,8 @@ impl Fence {
                 match self.listener.accept() {
                     Ok((stream, _)) => {
                         stream.set_nonblocking(false)?;
-                        self.desk = Some(Desk::new(stream, simulation.machine().now())?);
+                        self.desk =
+                            Some(Desk::new(stream, simulation.machine().now(), self.thinking)?);
                     }
                     Err(error) if error.kind() == io::ErrorKind::WouldBlock => {
                         ev3_os::sleep(Duration::from_millis(2));
@@ -116,19 +119,21 @@ impl Fence {
 }
 
 natives! {
-    /// sim_fence_open_(+Path): a program may connect to the robot of the running simulation, once;
-    /// fails if that has no virtual clock.
-    semidet fn "sim_fence_open_"(context, path) as call("sim_fenced", 3) {
+    /// sim_fence_open_(+Path, +Inferences): a program may connect to the robot of the running
+    /// simulation, once, and that many inferences of it take a second, or no time if it is 0. Fails
+    /// if the simulation has no virtual clock.
+    semidet fn "sim_fence_open_"(context, path, inferences) as call("sim_fenced", 3) {
         let simulation = simulation(context)?;
         if simulation.clock() != Clock::Virtual {
             return Err(PrologError::Failure);
         }
-        let path = call.text(path)?;
+        let (path, inferences) = (call.text(path)?, call.integer(inferences)?);
+        let thinking = u64::try_from(inferences).unwrap_or(0);
         let listener = UnixListener::bind(&*path)
             .and_then(|listener| listener.set_nonblocking(true).map(|()| listener));
         match listener {
             Ok(listener) => {
-                locked(&FENCES).insert(brick_number(), Fence { listener, desk: None });
+                locked(&FENCES).insert(brick_number(), Fence { listener, thinking, desk: None });
                 Ok(())
             }
             Err(error) => no_such(&call, "socket", &path, &error.to_string()),

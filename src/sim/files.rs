@@ -83,6 +83,10 @@ impl Sysfs for SimulatedFiles {
         Ok(self.simulation.pause(end))
     }
 
+    fn thinking(&self) -> u64 {
+        self.simulation.thinking()
+    }
+
     fn takes_turns(&self) -> bool {
         true
     }

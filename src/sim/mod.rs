@@ -86,7 +86,7 @@ natives! {
         forms.unify(terms.collect::<PrologResult<Vec<_>>>()?.as_slice())
     }
 
-    /// sim_start_(+WorldFacts, +RobotFacts, +options(Clock, Seed, Noise, ScreenBits), -Fault):
+    /// sim_start_(+WorldFacts, +RobotFacts, +options(Clock, Seed, Noise, ScreenBits, Thinking), -Fault):
     /// fault is `none`, or fault(Subject, Index, Why) for the faulty fact. Index counts from
     /// 1; 0 means that a fact is missing.
     semidet fn "sim_start_"(context, world, robot, options, fault) as call("sim_start", 2) {
@@ -453,10 +453,15 @@ fn options_of<'a, C: Prolog>(
     call: &Call<'a, C>,
     options: &Term<'a>,
 ) -> PrologResult<(Clock, bool, Options)> {
-    let [clock, seed, noise, screen] = call.arguments(options)?;
+    let [clock, seed, noise, screen, thinking] = call.arguments(options)?;
+    let thinking = u64::try_from(call.integer(&thinking)?).unwrap_or(0);
     let seed = u64::from_ne_bytes(call.integer(&seed)?.to_ne_bytes());
     let depth = if call.integer(&screen)? == 1 { Depth::One } else { Depth::ThirtyTwo };
-    Ok((clock_of(call, &clock)?, noise.get_ex()?, Options { seed, depth, ..Options::default() }))
+    Ok((
+        clock_of(call, &clock)?,
+        noise.get_ex()?,
+        Options { seed, depth, thinking, ..Options::default() },
+    ))
 }
 
 /// A robot of several: its brick, its name, its facts.

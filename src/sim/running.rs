@@ -5,7 +5,8 @@ use super::mount;
 use crate::glue::call::Call;
 use crate::glue::error::no_such;
 use crate::glue::state::{
-    Selected, brick_number, select, selected, show_robot, use_brick, use_dev, use_tree, watched,
+    Selected, brick_number, devices, select, selected, show_robot, use_brick, use_dev, use_tree,
+    watched,
 };
 use crate::glue::terms::Prolog;
 use crate::glue::waiting::tick_at_once;
@@ -36,6 +37,7 @@ pub(super) fn simulation<C: Prolog>(context: &Context<C>) -> PrologResult<Arc<Si
     let Some(simulation) = simulation else {
         return none(&call);
     };
+    call.think(&devices())?;
     call.wait_for(|about| simulation.turn(about))?;
     Ok(simulation)
 }
@@ -84,6 +86,7 @@ pub(super) fn start<C: Prolog>(
     mut machine: Machine,
     clock: Clock,
 ) -> PrologResult<()> {
+    call.begin_to_think()?;
     machine.keep_samples(watch::is_watched());
     match Simulation::new(machine, clock, has_other_threads) {
         Ok(simulation) => run(call, simulation, Arc::default()),
@@ -104,6 +107,7 @@ pub(super) fn start_crowd<C: Prolog>(
         Ok(Err(misplaced)) => return Ok(Err(misplaced)),
         Err(error) => return no_thread(call, &error),
     };
+    call.begin_to_think()?;
     let outer = brick_number();
     let names: Arc<[String]> = robots.iter().map(|(_, name)| name.clone()).collect();
     // Somebody who looks sees a match, and not its end.

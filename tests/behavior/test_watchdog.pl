@@ -2,8 +2,10 @@
 :- use_module('../support/child').
 :- use_module('../support/far_bricks').
 :- use_module(library(ev3dev/bricks)).
+:- use_module(library(ev3dev/sim)).
 
-% The flag ev3dev_watchdog: a program computes, and its motors run on.
+% A program computes, and its motors run on: the flag ev3dev_watchdog; and, on the virtual clock,
+% the option thinking(T) of sim_start/2.
 
 % What a program prints that computes for Seconds of a processor after Start, with the flag, and
 % then says how outB is. On a brick in another process, or simulated here.
@@ -112,3 +114,66 @@ main :- set_prolog_flag(ev3dev_watchdog, ~w), brick_open(anna, ~q),
         far(anna, state(outB, S)), ( S == running -> writeln(S) ; writeln(rests) ).",
            [Flag, Where]),
     run_program(Text, [goal(main)], _, Output).
+
+% Thinking takes time: the option thinking(T) of sim_start/2.
+
+% Where the robot is after it has counted while it drives. In a process of its
+% own each time: the first call of a library's predicate loads it.
+driven(Options, Goals, Output) :-
+    format(string(Text), "
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/events)).
+:- use_module(library(ev3dev/journal)).
+count(0) :- !.
+count(N) :- M is N-1, count(M).
+main :- set_prolog_flag(ev3dev_watchdog, 0),
+        sim_start([bounds(0, 0, 1000, 300), start(20, 150, 90)], [clock(virtual), ~q]),
+        set_robot(5.6, 10.6, outB, outC),
+        ~s, sim_pose(X, Y, H), sim_time(Time), print([X, Y, H, Time]), nl.", [Options, Goals]),
+    run_program(Text, [goal(main)], _, Output).
+
+place(Options, Goals, Place) :-
+    driven(Options, Goals, Output),
+    place_in(Output, Place).
+
+place_in(Output, Place) :-
+    split_string(Output, "\n", "", Lines),
+    member(Line, Lines),
+    string_concat("[", _, Line),
+    !,
+    term_string(Place, Line).
+
+:- begin_tests(thinking).
+test(what_a_program_infers_passes_as_time, true(( abs(T-2.0) < 0.1, abs(X-50) < 3 ))) :-
+    place(thinking(100000), "go(30), count(200000)", [X, _, _, T]).
+test(without_it_nothing_passes, true(T < 0.1)) :-
+    place(thinking(free), "go(30), count(200000)", [_, _, _, T]).
+test(it_is_the_same_each_time,
+     [ forall(member(Goals, [ "go(30), count(123456)",
+                              "go(30), for_seconds(20, ( count(3000000), us_dist_cm(in1, _), count(3000000) ))",
+                              "both(( go(30), count(20000), wait(0.5) ),
+                                    ( wait(0.1), us_dist_cm(in1, _), count(30000),
+                                      motor_position(outB, _) ))",
+                              "go(30), thread_create(( us_dist_cm(in1, _), count(50000),
+                                                       us_dist_cm(in1, _) ), T),
+                               wait(0.3), count(20000), thread_join(T, _)" ])),
+       true(One-All = One-[_]) ]) :-
+    findall(Place, ( between(1, 3, _), place(thinking(brick), Goals, Place) ), Places),
+    sort(Places, All).
+test(the_watchdog_follows_it, true(abs(X-36) < 1)) :-
+    driven(thinking(100000),
+           "set_prolog_flag(ev3dev_watchdog, 1), go(30), count(200000), why(outB)", Output),
+    assertion(sub_string(Output, _, _, _, "outB and outC were stopped. The program computed for 1 s in main/0 (")),
+    assertion(sub_string(Output, _, _, _, "outB was stopped (brake) at 1.0")),
+    assertion(sub_string(Output, _, _, _, ": the program computed for too long")),
+    place_in(Output, [X|_]).
+test(it_needs_the_virtual_clock, error(permission_error(think, clock, realtime), _)) :-
+    sim_start(room, [thinking(brick)]).
+test(bad_rates,
+     [forall(member(T, [0, -1, 0.5, fast, x(1)])), error(domain_error(thinking, T), _)]) :-
+    sim_start(room, [clock(virtual), thinking(T)]).
+test(an_unbound_rate, error(instantiation_error, _)) :-
+    sim_start(room, [clock(virtual), thinking(_)]).
+:- end_tests(thinking).

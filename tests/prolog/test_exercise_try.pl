@@ -69,6 +69,10 @@ says(a_sensor_that_was_not_read,
      "*it ran into *in4 showed *The program had not read in1.").
 
 tries(Lines, Text) :-
+    tries(free, Lines, Text).
+
+tries(Thinking, Lines, Text) :-
+    format(string(Exercise0), "exercise(e, [seconds(20), seeds(1), thinking(~w)]).", [Thinking]),
     tmp_file(exercise, Folder),
     make_directory(Folder),
     atom_concat(Folder, '/exercise.pl', Exercise),
@@ -76,7 +80,7 @@ tries(Lines, Text) :-
     setup_call_cleanup(
         ( write_lines(Exercise,
                       [ ":- use_module(library(ev3dev/exercise)).",
-                        "exercise(e, [seconds(20), seeds(1)]).",
+                        Exercise0,
                         "score(5, visits) :- cells_visited(30, N), N >= 4, collisions(0).",
                         "score(1, 'is quick') :- is_quick.",
                         "is_quick :- path_length(Cm), duration(S), Cm/S > 15.",
@@ -104,4 +108,8 @@ like(Text, Pattern) :-
 test(it_says, [forall(says(What, Lines, Said))]) :-
     tries(Lines, Text),
     ( like(Text, Said) -> true ; throw(What-Text) ).
+test(a_program_that_thinks_while_it_drives,
+     true(like(Text, "mine.pl:4: on the brick your program thought for 2.0 s in start/0, and the robot drove * cm meanwhile"))) :-
+    tries(brick, [ "count(0) :- !. count(N) :- M is N-1, count(M).",
+                   "start :- robot, go(20), count(200000), stop, wait(0.1)." ], Text).
 :- end_tests(exercise_try).

@@ -57,6 +57,12 @@ pub trait Sysfs: Send + Sync {
     /// Errors: the kernel's, as ENOMEM.
     fn pause(&self, nodes: &[&dyn AttributeFile], end: Duration) -> io::Result<bool>;
 
+    /// How many inferences of the program take a second of this tree's time; 0 if thinking takes
+    /// none of it.
+    fn thinking(&self) -> u64 {
+        0
+    }
+
     /// Whether threads wait for their turns, see [`turn`](Self::turn).
     fn takes_turns(&self) -> bool {
         false

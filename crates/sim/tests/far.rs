@@ -19,7 +19,7 @@ fn an_answer_comes_back_through_the_socket() {
     let (program, host) = UnixStream::pair().unwrap();
     let simulation = Simulation::new(default_machine(), Clock::Virtual, || false).unwrap();
     let serves = thread::spawn(move || {
-        let mut desk = Desk::new(host, Duration::from_secs(3)).unwrap();
+        let mut desk = Desk::new(host, Duration::from_secs(3), 0).unwrap();
         while let Next::Asked(at) = desk.hear(WITHIN).unwrap() {
             simulation.pause(at);
             desk.answer(&mut simulation.machine(), Duration::ZERO);
@@ -63,7 +63,7 @@ fn a_loop_has_the_answers_of_a_machine_here() {
     let (program, host) = UnixStream::pair().unwrap();
     let there = simulation();
     let serves = thread::spawn(move || {
-        let mut desk = Desk::new(host, there.machine().now()).unwrap();
+        let mut desk = Desk::new(host, there.machine().now(), 0).unwrap();
         while let Next::Asked(at) = desk.hear(WITHIN).unwrap() {
             while !there.pause(at) {}
             let mut machine = there.machine();
@@ -85,7 +85,7 @@ fn a_line_that_is_lost_says_so() {
     use std::sync::atomic::{AtomicBool, Ordering};
     static LOST: AtomicBool = AtomicBool::new(false);
     let (program, host) = UnixStream::pair().unwrap();
-    drop(Desk::new(host, Duration::ZERO).unwrap());
+    drop(Desk::new(host, Duration::ZERO, 0).unwrap());
     let (line, now) = Line::new(program, || LOST.store(true, Ordering::Relaxed)).unwrap();
     let far = Simulation::far(Box::new(line), now, || false).unwrap();
     assert_eq!(far.list(""), Err(Errno(5)));

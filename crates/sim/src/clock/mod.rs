@@ -78,6 +78,8 @@ pub struct Simulation {
     shared: Arc<Shared>,
     acts: Arc<PeriodicActs>,
     clock: Passing,
+    /// See [`Options`](crate::Options).
+    thinking: u64,
     /// Of one of several robots in a world.
     processor: Option<Processor>,
     /// The machine that is meant, if this one is but its clock.
@@ -120,9 +122,10 @@ impl Simulation {
     /// one that calls it; if not, it need not wait for its turn.
     /// Errors: if the wall clock's thread cannot be started.
     pub fn new(machine: Machine, clock: Clock, has_others: fn() -> bool) -> io::Result<Self> {
+        let thinking = machine.thinking();
         let shared = Arc::new(Shared::new(machine));
         let (acts, clock) = started(&shared, None, clock, has_others)?;
-        Ok(Self { shared, acts, clock, processor: None, far: None })
+        Ok(Self { shared, acts, clock, thinking, processor: None, far: None })
     }
 
     /// The virtual clock, which begins at this moment, of a machine in another process.
@@ -131,7 +134,7 @@ impl Simulation {
         let machine = Machine::bare().map_err(io::Error::other)?;
         let simulation = Self::new(machine, Clock::Virtual, has_others)?;
         simulation.shared.step(now);
-        Ok(Self { far: Some(far), ..simulation })
+        Ok(Self { thinking: far.thinking(), far: Some(far), ..simulation })
     }
 
     /// The same for several robots, which come into the world of the first one. They have one time.
@@ -146,6 +149,7 @@ impl Simulation {
         if let Err(fault) = crowd::join(&mut machines) {
             return Ok(Err(fault));
         }
+        let thinking = machines.first().map_or(0, Machine::thinking);
         let crowd = Crowd::new(machines);
         let Some(first) = crowd.members().first() else {
             return Ok(Ok(Vec::new()));
@@ -155,10 +159,16 @@ impl Simulation {
             shared: Arc::clone(shared),
             acts: Arc::clone(&acts),
             clock: clock.clone(),
+            thinking,
             processor: Some(Processor::new(Arc::clone(&crowd))),
             far: None,
         };
         Ok(Ok(crowd.members().iter().map(simulation).collect()))
+    }
+
+    /// How many inferences of the program take a second; 0 if they take no time.
+    pub fn thinking(&self) -> u64 {
+        self.thinking
     }
 
     /// How many robots are in its world.

@@ -169,6 +169,9 @@ impl Answer {
 pub trait Far: Send + Sync {
     /// Its answer. Where it is lost, that is EIO.
     fn ask(&self, question: &Question) -> Answer;
+
+    /// How many inferences of the program take a second there; 0 if they take no time.
+    fn thinking(&self) -> u64;
 }
 
 /// What a program knows without asking. Until a moment that the host says nothing happens there but

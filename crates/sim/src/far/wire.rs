@@ -1,6 +1,7 @@
 //! Questions and answers through a socket between two processes of one machine.
 //!
-//! Numbers are little-endian. The host begins with [`HELLO`] and its time in nanoseconds. A
+//! Numbers are little-endian. The host begins with [`HELLO`], its time in nanoseconds,
+//! and how many inferences take a second (8 bytes each). A
 //! question is 32 bytes and its text, up to a multiple of 4: the text's length (4 bytes), kind (1), whether it takes no
 //! time (1), whether the answer is known (1), nothing (1), its moment in nanoseconds (8), number (8), offset (4), count (4). An
 //! answer is 16 bytes and its bytes: their length (4), error (4), number (8).
@@ -29,7 +30,7 @@ use std::path::Path;
 use std::sync::Mutex;
 use std::time::Duration;
 
-const HELLO: &[u8; 8] = b"ev3far1\n";
+const HELLO: &[u8; 8] = b"ev3far2\n";
 
 /// The most bytes of a question, or wanted by one: more than a screen has.
 const MOST: u32 = 1 << 18;
@@ -70,6 +71,7 @@ type Foreseen = VecDeque<(Vec<u8>, Answer)>;
 pub struct Line {
     stream: Mutex<(UnixStream, Kept, Foreseen)>,
     mailbox: Option<Mailbox>,
+    thinking: u64,
     /// Called once there are no more answers.
     lost: fn(),
 }
@@ -83,14 +85,15 @@ impl Line {
 
     /// Over a socket that is connected.
     pub fn new(stream: UnixStream, lost: fn()) -> io::Result<(Line, Duration)> {
-        let mut hello = [0; 16];
+        let mut hello = [0; 24];
         let mailbox = Mailbox::receive(&stream, &mut hello)?;
         if hello[..8] != *HELLO {
             return Err(io::Error::new(ErrorKind::InvalidData, "that is no host of a fence"));
         }
         let now = Duration::from_nanos(u64::from_le_bytes(part(&hello, 8)));
+        let thinking = u64::from_le_bytes(part(&hello, 16));
         let stream = Mutex::new((stream, Kept::default(), Foreseen::new()));
-        Ok((Line { stream, mailbox, lost }, now))
+        Ok((Line { stream, mailbox, thinking, lost }, now))
     }
 
     fn exchanged(&self, question: &Question) -> io::Result<Answer> {
@@ -211,6 +214,10 @@ fn framed_answer(Answer { error, number, bytes }: &Answer) -> Vec<u8> {
 }
 
 impl Far for Line {
+    fn thinking(&self) -> u64 {
+        self.thinking
+    }
+
     fn ask(&self, question: &Question) -> Answer {
         self.exchanged(question).unwrap_or_else(|_| {
             (self.lost)();
@@ -280,10 +287,12 @@ pub struct Desk {
 }
 
 impl Desk {
-    /// Greets a program that has connected, at this time.
-    pub fn new(mut stream: UnixStream, now: Duration) -> io::Result<Desk> {
+    /// Greets a program that has connected, at this time; that many of its inferences take a
+    /// second.
+    pub fn new(mut stream: UnixStream, now: Duration, thinking: u64) -> io::Result<Desk> {
         let mut hello = HELLO.to_vec();
         hello.extend(nanos(now).to_le_bytes());
+        hello.extend(thinking.to_le_bytes());
         // An old kernel has no files in memory.
         let mailbox = Mailbox::new().ok();
         match &mailbox {
@@ -464,7 +473,7 @@ mod tests {
     /// A desk at whose other end these bytes were written.
     fn desk(bytes: &[u8]) -> Desk {
         let (mut program, host) = UnixStream::pair().unwrap();
-        let desk = Desk::new(host, Duration::ZERO).unwrap();
+        let desk = Desk::new(host, Duration::ZERO, 0).unwrap();
         program.write_all(bytes).unwrap();
         desk
     }
@@ -489,7 +498,7 @@ mod tests {
     fn half_a_question_and_then_the_end() {
         assert_eq!(next(&[0; HEAD - 1]), Next::Gone);
         let (mut program, host) = UnixStream::pair().unwrap();
-        let mut desk = Desk::new(host, Duration::ZERO).unwrap();
+        let mut desk = Desk::new(host, Duration::ZERO, 0).unwrap();
         program.write_all(&[0; HEAD - 1]).unwrap();
         assert_eq!(desk.hear(SOON).unwrap(), Next::Idle);
         program.write_all(&[0]).unwrap();
@@ -501,7 +510,7 @@ mod tests {
     fn reads<T: Send + 'static>(moments: &'static [u64], end: fn(Line) -> T) -> Vec<u64> {
         let (program, host) = UnixStream::pair().unwrap();
         let mut machine = Machine::bare().unwrap();
-        let mut desk = Desk::new(host, Duration::ZERO).unwrap();
+        let mut desk = Desk::new(host, Duration::ZERO, 0).unwrap();
         let program = thread::spawn(move || {
             let (line, _) = Line::new(program, || ()).unwrap();
             let path = b"power_supply/lego-ev3-battery/voltage_now";
@@ -639,7 +648,7 @@ mod tests {
     #[test]
     fn one_that_never_reads_is_gone() {
         let (mut program, host) = UnixStream::pair().unwrap();
-        let mut desk = Desk::new(host, Duration::ZERO).unwrap();
+        let mut desk = Desk::new(host, Duration::ZERO, 0).unwrap();
         let mut machine = Machine::bare().unwrap();
         let asks = thread::spawn(move || while program.write_all(&[0; HEAD]).is_ok() {});
         let mut answered = 0;

@@ -53,11 +53,13 @@ pub struct Options {
     pub instant: bool,
     /// How many bits the screen has for a pixel.
     pub depth: Depth,
+    /// How many inferences the program makes in a second; 0 if they take no time.
+    pub thinking: u64,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { seed: 1, instant: false, depth: Depth::default() }
+        Options { seed: 1, instant: false, depth: Depth::default(), thinking: 0 }
     }
 }
 

@@ -17,6 +17,11 @@ const OUTPUTS: [Port; 4] = [Port::OutA, Port::OutB, Port::OutC, Port::OutD];
 const FARTHEST_TICKS: u64 = 25;
 
 impl Machine {
+    /// How many inferences of the program take a second; 0 if they take no time.
+    pub fn thinking(&self) -> u64 {
+        self.options.thinking
+    }
+
     /// Virtual time since boot.
     pub fn now(&self) -> Duration {
         self.now

@@ -54,6 +54,12 @@ robot(WheelDiameter, AxleLength, Left, Right) :-
     brick(Brick),
     described(Brick, robot(WheelDiameter, AxleLength, Left, Right), _).
 
+:- multifile ev3dev_watchdog:rolled/2.
+
+ev3dev_watchdog:rolled(Degrees, Cm) :-
+    ev3dev_robot_state:robot(WheelDiameter, _, _, _),
+    Cm is Degrees/360*pi*WheelDiameter.
+
 %!  robot_set(-WheelDiameter, -AxleLength, -Left, -Right) is semidet.
 %
 %   Like robot/4, but explains why it fails.

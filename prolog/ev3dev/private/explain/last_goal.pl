@@ -11,6 +11,7 @@
 :- use_module('../basics/small_lists', [one_of/2]).
 :- use_module('../errors/error_texts', [shown/2]).
 :- use_module('../errors/frames', [in_pack/3, program/1]).
+:- use_module('../native/native', [thought_begins_/1, thought_nothing_/2]).
 
 /** <module> The goal of a program that was called last
 
@@ -244,8 +245,18 @@ prolog:break_hook(Clause, PC, Frame, _, Goal, _, Action) :-
 stopped(Clause, PC, Frame, Goal, Action) :-
     watched(Clause, PC, Called, Tail),
     !,
-    catch(take(Clause, PC, Called, Tail, Frame, Goal, Action),
+    catch(unthought(take(Clause, PC, Called, Tail, Frame, Goal, Action)),
           error(resource_error(_), _), Action = continue).
+
+%   A note takes none of the time that thinking takes, nor do the five calls
+%   before it.
+
+unthought(Goal) :-
+    (   thought_begins_(Before)
+    ->  call(Goal),
+        thought_nothing_(Before, 5)
+    ;   call(Goal)
+    ).
 
 take(Clause, PC, Called, Tail, Frame, Goal0, Action) :-
     (   Called == nothing
@@ -272,7 +283,7 @@ take(Clause, PC, Called, Tail, Frame, Goal0, Action) :-
 
 passing(Goal, Take) :-
     call(Goal),
-    call(Take).
+    unthought(Take).
 
 tail_goal(tail(Moves, At, Module:Name/Arity), Frame, At, Module:Head, Last) :-
     functor(Head, Name, Arity),

@@ -47,8 +47,33 @@ runs(Seconds, Goal) :-
         why('~w~w', [Place, Advice])
     ;   outcome(listening(0.1, ev3dev_watched_run:tick(Until), user:Goal),
                 Outcome),
-        said(Outcome, Goal)
+        said(Outcome, Goal),
+        forall(thought(Thought, Cm, At), said_thought(Thought, Cm, At))
     ).
+
+%   The longest thought of the run, if the robot drove meanwhile.
+
+:- dynamic thought/3.                   % Seconds, Cm, Place
+:- multifile ev3dev_watchdog:heard_thought/3.
+
+ev3dev_watchdog:heard_thought(Seconds, Cm, Place) :-
+    Cm >= 1,
+    (   ev3dev_watched_run:thought(Longest, _, _),
+        Longest >= Seconds
+    ->  true
+    ;   retractall(ev3dev_watched_run:thought(_, _, _)),
+        assertz(ev3dev_watched_run:thought(Seconds, Cm, Place))
+    ).
+
+said_thought(Seconds, Cm, Place) :-
+    (   Place = at(Predicate, File, Line)
+    ->  format(atom(Where), '~w:~d: ', [File, Line]),
+        format(atom(In), ' in ~w', [Predicate])
+    ;   Where = '',
+        In = ''
+    ),
+    why('~won the brick your program thought for ~1f s~w, and the robot \c
+         drove ~0f cm meanwhile', [Where, Seconds, In, Cm]).
 
 %   So it is full before the time of its processor is over.
 

@@ -11,6 +11,7 @@
             program_terms/2             % +Text, -Terms
           ]).
 :- use_module('../errors/errors', [in_own_name/1, throw_error/3]).
+:- use_module('../simulation/thinking_rate', [thinking_rate/2]).
 :- use_module(library(lists),
               [append/3, member/2, numlist/3]).
 
@@ -80,6 +81,9 @@ good(seconds(N)) :- number(N), N > 0.
 good(seeds(Seeds)) :- seed_list(Seeds, _).
 good(open(Seeds)) :- seed_list(Seeds, _).
 good(robot(Robot)) :- nonvar(Robot).
+good(thinking(Thinking)) :-
+    nonvar(Thinking),
+    catch(thinking_rate([thinking(Thinking)], _), error(_, _), fail).
 good(noise(Boolean)) :- memberchk(Boolean, [true, false]).
 good(cpu(N)) :- number(N), N > 0.
 good(sleep(N)) :- number(N), N > 0.

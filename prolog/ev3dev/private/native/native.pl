@@ -141,7 +141,7 @@
             sim_key_/2,                 % +Key, +IsPress
             sim_plan_key_/3,            % +Key, +After, +For
             % src/sim/fence.rs
-            sim_fence_open_/1,          % +Path
+            sim_fence_open_/2,          % +Path, +Inferences
             sim_fence_serve_/3,         % +Until, +Wall, -State
             sim_fence_silent_/0,
             process_usage_/5,           % +Process, -Seconds, -Rest, ..
@@ -194,6 +194,8 @@
             % src/time.rs
             now_/1,                     % -Seconds
             wait_/2,                    % +Seconds, -Reason
+            thought_begins_/1,          % -Inferences
+            thought_nothing_/2,         % +Inferences, +Before
             guards_/0,
             tick_after_/1,              % +Seconds
             tick_at_once_/0,

@@ -57,11 +57,7 @@ say(Thread, Queue, Ports, Seconds) :-
 
 said(Queue, Ports, Seconds) :-
     (   catch(thread_send_message(Queue, said), error(_, _), fail)
-    ->  (   prolog_current_frame(Frame),
-            place(Frame, 1000, Place)
-        ->  true
-        ;   Place = none
-        ),
+    ->  here(Place),
         print_message(warning, ev3dev(computed(Ports, Seconds, Place)))
     ;   true
     ).
@@ -73,6 +69,45 @@ said(Queue, Ports, Seconds) :-
 
 :- multifile far_stopped/2.
 :- dynamic far_stopped/2.
+
+%!  thought(+Seconds, +Degrees, +Limit, +Ports) is det.
+%
+%   On a virtual clock on which thinking takes time, this thread has thought
+%   for so long. A motor has turned by Degrees meanwhile, or after Limit
+%   seconds the motors at Ports were stopped.
+
+:- public thought/4.
+
+thought(Seconds, Degrees, Limit, Ports) :-
+    here(Place),
+    forall(( rolled(Degrees, Cm), heard_thought(Seconds, Cm, Place) ), true),
+    (   Ports == []
+    ->  true
+    ;   print_message(warning, ev3dev(computed(Ports, Limit, Place)))
+    ).
+
+%!  rolled(+Degrees, -Cm) is semidet.
+%
+%   A wheel that turns by Degrees rolls that far. The module that knows the
+%   robot adds a clause.
+
+:- multifile rolled/2.
+:- dynamic rolled/2.
+
+%!  heard_thought(+Seconds, +Cm, +Place) is det.
+%
+%   `swipl ev3dev try` adds a clause. Place is at(Predicate, File, Line), or
+%   `none`.
+
+:- multifile heard_thought/3.
+:- dynamic heard_thought/3.
+
+here(Place) :-
+    prolog_current_frame(Frame),
+    (   place(Frame, 1000, Place0)
+    ->  Place = Place0
+    ;   Place = none
+    ).
 
 %   The innermost clause of the program.
 

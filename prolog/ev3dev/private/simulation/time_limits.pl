@@ -6,7 +6,9 @@
 :- use_module('../run/brick', [brick/1]).
 :- use_module('../errors/errors', [throw_error/3]).
 :- use_module('../errors/frames', [goal_of_program/1]).
-:- use_module('../native/native', [limit_call_/2, limit_insist_/4]).
+:- use_module('../native/native',
+              [ limit_call_/2, limit_insist_/4, thought_begins_/1,
+                thought_nothing_/2 ]).
 :- use_module(schedule,
               [clock/1, plan/3, plan/4, planned/4, unplan/1]).
 :- use_module('../basics/small_lists', [one_of/2]).
@@ -207,6 +209,13 @@ remove_alarm(Alarm) :-
 :- public look/1.
 
 look(Id) :-
+    (   thought_begins_(Before)
+    ->  looked(Id),
+        thought_nothing_(Before, 2)
+    ;   looked(Id)
+    ).
+
+looked(Id) :-
     retractall(alarm_of(Id, _)),
     (   limit(Id, _, _)
     ->  set_alarm(Id),
