@@ -67,6 +67,15 @@ Source: Thrun: Learning occupancy grid maps with forward sensor models (2003).
 :- volatile mapper/5.
 :- of_brick([mapper/5]).
 
+%   Another world begins, which has another map.
+:- multifile ev3dev_brick:other_world/1.
+
+ev3dev_brick:other_world(Brick) :-
+    ev3dev_map:forget_map(Brick).
+
+forget_map(Brick) :-
+    retractall(mapper(brick: Brick)).
+
 %!  map_start is semidet.
 %!  map_start(+Options) is semidet.
 %

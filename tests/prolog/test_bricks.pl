@@ -5,6 +5,7 @@
 :- use_module('../support/trees').
 :- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/events), [on/2 as when_, both/2, every/3]).
 
 % Call Goal with simulated bricks of these names, which end with it.
@@ -40,6 +41,16 @@ current_name(Name) :-
     use_brick(Name).
 
 :- begin_tests(bricks).
+test(sim_stop_ends_all_robots_of_a_world, true(Names == [local])) :-
+    sim_start(dohyo, [clock(virtual), robots([east-default, west-default])]),
+    sim_stop,
+    \+ sim_stop,
+    findall(Name, brick(Name), Names).
+test(but_within_one_of_them_its_simulation, true(Names == [local, east, west])) :-
+    sim_start(dohyo, [clock(virtual), robots([east-default, west-default])]),
+    with_brick(east, sim_stop),
+    findall(Name, brick(Name), Names),
+    sim_stop.
 test(a_program_starts_with_local, true(Names == [local-local])) :-
     findall(Name-Where, brick(Name, Where), Names).
 test(a_world_that_was_asked_for_is_not_announced, [true(Said == [])]) :-
@@ -471,7 +482,7 @@ test(what_cannot_be_read_is_dropped, Term == b) :-
     with_redis_server(Port,
       joined(Port,
         ( with_client(Port, Redis,
-              forall(member(Number-Text, [1-"f(", 2-"b"]),
+              forall(member(Number-Text, [foo-"a", foo-"a", 1-"f(", f(x)-"a", 2-"b"]),
                      redis(Redis, xadd('ev3dev:mail', *, to, anna, from, bob, program, p,
                                        number, Number, term, Text), _))),
           robot_receive(bob, Term, [timeout(5)]) ))).

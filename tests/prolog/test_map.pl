@@ -30,6 +30,8 @@ test(it_explores_the_room_and_makes_a_world_of_it, Reason-Collisions == explored
     in_world(Facts, ( localize_start(Facts), localize_scan,
                      localized_pose(X1, Y1, _, _), sim_pose(X2, Y2, _) )),
     (X1-X2)**2 + (Y1-Y2)**2 < 25.
+test(another_world_has_no_map_yet) :-
+    in_room(( map_start, turn(30, 360, []), map_facts(_), sim_start(room, [clock(virtual)]), \+ map_facts(_) )).
 test(the_map_is_a_file_and_a_picture, true(Elements > 100)) :-
     in_room(( map_start, turn(30, 360, []),
               with_temporary('.pl', File,

@@ -293,7 +293,8 @@ answer(Far, Number, Ask, Answer) :-
             ( call(Ask),
               (   lost(Far)
               ->  Answer = lost
-              ;   await(Queue, Answer)
+              ;   until(Number, Until),
+                  await(Queue, Until, Answer)
               ) ),
             How,
             ( retractall(waiting(Far, Number, Queue)),
@@ -306,11 +307,24 @@ left(_, Far, Number) :-
     far(Far, _, In),
     catch(send_frame(In, cancel, Number, []), error(_, _), true).
 
+%   A greeting comes within a minute, whatever else the process says.
+
+until(Number, Until) :-
+    (   Number =:= 0
+    ->  get_time(Now),
+        Until is Now+60
+    ;   Until = never
+    ).
+
 %   Meanwhile this thread serves its events, and other branches go on.
 
-await(Queue, Answer) :-
+await(Queue, Until, Answer) :-
     (   thread_get_message(Queue, answer(Answer0), [timeout(0.02)])
     ->  Answer = Answer0
+    ;   number(Until),
+        get_time(Now),
+        Now > Until
+    ->  Answer = lost
     ;   let_others_go_on,
-        await(Queue, Answer)
+        await(Queue, Until, Answer)
     ).

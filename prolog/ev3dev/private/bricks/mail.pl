@@ -117,8 +117,12 @@ receiver(HostPort, Redis, Last0, Program) :-
     catch(received(Redis, Last0, Program, Last), Error, true),
     (   var(Error)
     ->  disconnected(Redis)             % leave_mail/0
-    ;   Error = lost(Last)
+    ;   Error = lost(Last, Why)
     ->  disconnected(Redis),
+        (   connection_lost(Why)
+        ->  true
+        ;   print_message(warning, Why)
+        ),
         print_message(warning, ev3dev(mail_lost(HostPort))),
         again(HostPort, Last, Program)
     ;   throw(Error)
@@ -144,11 +148,9 @@ received(Redis, Last0, Program, Last) :-
               ->  true
               ;   Entries = []
               ), Error,
-              (   connection_lost(Error)
-              ->  throw(lost(Last0))
-              ;   throw(Error)
-              )),
-        forall(member([_, Fields], Entries), taken(Fields, Program)),
+              throw(lost(Last0, Error))),
+        forall(member([_, Fields], Entries),
+               catch(taken(Fields, Program), error(_, _), true)),
         (   last(Entries, [Last1|_])
         ->  true
         ;   Last1 = Last0
@@ -161,6 +163,7 @@ received(Redis, Last0, Program, Last) :-
 taken([to, To, from, From, program, Program, number, Number, term, Text],
       Me) :-
     Program \== Me,
+    integer(Number),
     \+ ( last_number(Program, Before), Number =< Before ),
     brick_of(To, Brick),
     catch(term_to_atom(Term, Text), error(_, _), fail),
@@ -177,4 +180,4 @@ brick_of(To, Brick) :-
 :- multifile prolog:message//1.
 
 prolog:message(ev3dev(mail_lost(HostPort))) -->
-    [ 'The Redis server ~w is not there any more; trying again.'-[HostPort] ].
+    [ 'The Redis server ~w does not answer; trying again.'-[HostPort] ].

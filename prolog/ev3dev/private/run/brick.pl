@@ -156,6 +156,14 @@ end_brick(Brick) :-
 forget(Brick) :-
     forall(about(Brick, Fact), retractall(Fact)).
 
+%!  other_world(+Brick) is det.
+%
+%   A simulation of another world begins. A module adds a clause if it knows
+%   something of the world.
+
+:- multifile other_world/1.
+:- dynamic other_world/1.
+
 %!  of_brick(:Facts) is det.
 %
 %   A directive: the predicates Facts, a list of Name/Arity, have the brick as

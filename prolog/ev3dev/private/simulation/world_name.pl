@@ -43,6 +43,7 @@ world_name(Name) :-
 
 note_world(World, Options) :-
     brick(Brick),
+    forall(ev3dev_brick:other_world(Brick), true),
     retractall(noted(Brick, _, _)),
     assertz(noted(Brick, World, Options)),
     retractall(name(Brick, _)),
