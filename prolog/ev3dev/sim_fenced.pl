@@ -179,7 +179,8 @@ in_directory(Directory, Paths, Goal, Seed-Thinking,
     Paths = [Path|_],
     (   runs_here(Path, run(Goal, Seed, Seconds), Output-ToldBy, Ended0)
     ->  true
-    ;   in_process([Socket, ToldBy, Seed], Paths, Goal, Directory-Output,
+    ;   in_process([Socket, ToldBy, Seed]-Thinking, Paths, Goal,
+                   Directory-Output,
                    limits(Seconds, Sleep, Cpu, Memory, Shut), Ended0)
     ),
     printed(Output, Size, Text),
@@ -198,7 +199,7 @@ in_directory(Directory, Paths, Goal, Seed-Thinking,
 :- multifile runs_here/4.
 :- dynamic runs_here/4.
 
-in_process([Socket, ToldBy, Seed], Paths, Goal, Directory-Output,
+in_process([Socket, ToldBy, Seed]-Thinking, Paths, Goal, Directory-Output,
            limits(Seconds, Sleep, Cpu, Memory, Shut), Ended) :-
     sim_time(Now),
     (   sim_fence_open_(Socket, Thinking)

@@ -57,6 +57,7 @@ impl<C: Prolog> Call<'_, C> {
     }
 
     /// What this thread has thought so far takes no time.
+    #[cfg(feature = "sim")]
     pub(crate) fn begin_to_think(&self) -> PrologResult<()> {
         let inferences = self.inferences()?;
         with_passed(|passed, _| *passed = inferences);
