@@ -132,7 +132,7 @@ describe('the playground', () => {
 
   test('says what is wrong, at its line', async () => {
     await run(page, `${HEAD}start :-\n    ${ROBOT},\n    go_cm(20, 30.\n`);
-    await said(page, /the \( in line 5 is not closed/);
+    await said(page, /the \( in line 4 is not closed/);
     await said(page, /was not started/);
     assert.deepEqual(await marks(page), ['error']);
 
