@@ -949,7 +949,7 @@ react :- behave([near, wander]), true.
     await it.page.goto(await it.session.url());
     await shows(it.page, (s) => s.phase === 'live', 'a page that lives');
     it.page.said.length = 0;
-    it.session.type('start');
+    it.session.type('react');
     await shows(it.page, (s) => s.program?.state === 'running', 'a program');
     const { frames } = await state(it.page);
     await shows(it.page, (s) => s.frames > frames + 20, 'frames');
