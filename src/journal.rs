@@ -68,16 +68,17 @@ natives! {
         }
     }
 
-    /// journal_new_(-Done): terms `done(Time, Act, Cause)`, what was done since the last call,
-    /// in its order.
+    /// journal_new_(-Done): terms `done(span(Time, Until, Times), Act, Cause)`, what was done since
+    /// the last call, in its order; what a motor got again and again is one.
     semidet fn "journal_new_"(context, done) as call("view", 1) {
-        let term = |entry: &Entry| {
+        let term = |Again { entry, until, times }: &Again| {
             let maker = Maker(&call);
-            let (time, cause) = (seconds(entry.time), u64::from(entry.origin.cause));
-            let parts = [maker.number(time)?, maker.act(&entry.act)?, maker.number(cause)?];
-            maker.compound("done", &parts)
+            let [from, until] = [entry.time, *until].map(seconds);
+            let span = [maker.number(from)?, maker.number(until)?, maker.number(*times)?];
+            let cause = maker.number(u64::from(entry.origin.cause))?;
+            maker.compound("done", &[maker.compound("span", &span)?, maker.act(&entry.act)?, cause])
         };
-        let terms = new_entries().iter().map(term).collect::<PrologResult<Vec<_>>>()?;
+        let terms = merged(new_entries()).iter().map(term).collect::<PrologResult<Vec<_>>>()?;
         done.unify(terms.as_slice())
     }
 }
@@ -94,6 +95,37 @@ fn new_entries() -> Vec<Entry> {
     let (entries, count) = devices.journal().after(after);
     *seen = (these, count);
     entries
+}
+
+/// A command that was given so often, from its own time on until another one.
+struct Again {
+    entry: Entry,
+    until: Duration,
+    times: u64,
+}
+
+/// The same command to a motor is one if it comes so soon after that, and after so few others.
+const SOON: Duration = Duration::from_millis(500);
+const LOOK_BACK: usize = 4;
+
+fn merged(entries: Vec<Entry>) -> Vec<Again> {
+    let mut merged: Vec<Again> = Vec::new();
+    for entry in entries {
+        let is_same = |again: &&mut Again| match (&again.entry.act, &entry.act) {
+            (Act::Motor(port, command), Act::Motor(other, same)) => {
+                (port, command, again.entry.origin.cause) == (other, same, entry.origin.cause)
+                    && entry.time < again.until + SOON
+            }
+            _ => false,
+        };
+        if let Some(again) = merged.iter_mut().rev().take(LOOK_BACK).find(is_same) {
+            again.until = entry.time;
+            again.times += 1;
+        } else {
+            merged.push(Again { until: entry.time, times: 1, entry });
+        }
+    }
+    merged
 }
 
 /// A whole number of nanoseconds, divided once: so it is written with no more digits than it has.

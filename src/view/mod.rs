@@ -85,18 +85,25 @@ natives! {
         Ok(())
     }
 
-    /// view_log_(+Time, +Kind, +Text, +Causes, +About, +Thread): Time is in seconds, or `now`.
+    /// view_log_(+Time, +Kind, +Text, +Causes, +About, +Thread): Time is in seconds, or `now`, or
+    /// span(From, Until, Times).
     semidet fn "view_log_"(context, time, kind, text, causes, about, thread) as call("view_mark", 1) {
         let owned = |term: &Term| Ok(call.text(term)?.into_owned().into());
         let some = |list: &Term| -> PrologResult<_> {
             let texts: Vec<state::Text> = call.map_list(list, |text| owned(&text))?;
             Ok(Some(texts).filter(|all| !all.is_empty()))
         };
-        let time = Decimal(if time.is_atom() { seconds() } else { call.float(time)? });
+        let (time, until, times) = match call.compound(time)?.as_ref().map(|(_, of)| &of[..]) {
+            Some([from, until, times]) => (call.float(from)?, call.float(until)?, call.integer(times)?),
+            _ if time.is_atom() => (seconds(), 0.0, 1),
+            _ => (call.float(time)?, 0.0, 1),
+        };
+        let (until, times) = ((times > 1).then_some(Decimal(until)), u64::try_from(times).ok());
         let (kind, text, thread) = (owned(kind)?, owned(text)?, owned(thread)?);
         let thread = Some(thread).filter(|name: &state::Text| !name.is_empty());
         let (causes, about) = (some(causes)?, some(about)?);
-        notes().log(Entry { n: 0, time, kind, text, causes, about, thread });
+        let (time, times) = (Decimal(time), until.and(times));
+        notes().log(Entry { n: 0, time, until, times, kind, text, causes, about, thread });
         Ok(())
     }
 

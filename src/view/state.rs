@@ -252,6 +252,8 @@ objects! {
     Entry {
         n: u64,
         time: Decimal<3>,
+        until: Option<Decimal<3>>,
+        times: Option<u64>,
         kind: Text,
         text: Text,
         causes: Option<Vec<Text>>,

@@ -166,6 +166,9 @@ test(impossible_geometry) :-
     Formal == domain_error(possible_geometry, box(30, 30, 0, 5)),
     says(Message, 'FILE:2:0: '),
     says(Message, 'needs a width and a depth above 0').
+test(bounds_that_are_too_far) :-
+    complaint("bounds(0, 0, 10000000, 10).\n", [], _, Message),
+    says(Message, 'has a number beyond 1000000').
 test(start_inside_something) :-
     complaint("box(30, 30, 10, 10).\nstart(30, 30, 0).\n", [],
               Formal, Message),

@@ -11,25 +11,20 @@ export class Camera {
       const edge = Math.max(1.2, 0.008 * Math.max(x2 - x1, y2 - y1));
       return [x1 - edge, y1 - edge, x2 + edge, y2 + edge];
     }
-    if (world?.view) return world.view;
     const all = this.poses().map((pose) => [pose[0], pose[1]]);
     if (this.model?.path) all.push(...this.model.path);
     const grid = this.model?.grid;
     if (grid) {
       all.push(grid.origin, [grid.origin[0] + grid.cols * grid.cell, grid.origin[1] + grid.rows * grid.cell]);
     }
-    if (!all.length) return [-60, -50, 60, 50];
-    const { columns } = this.model.samples;
-    for (const name of ['bx', 'by']) {
-      const values = columns.get(name)?.filter((n) => n !== null) ?? [];
-      if (values.length) {
-        const low = Math.min(...values), high = Math.max(...values);
-        all.push(name === 'bx' ? [low, all[0][1]] : [all[0][0], low], name === 'bx' ? [high, all[0][1]] : [all[0][0], high]);
-      }
-    }
-    const xs = all.map((p) => p[0]), ys = all.map((p) => p[1]);
-    const margin = 40;
-    return [Math.min(...xs) - margin, Math.min(...ys) - margin, Math.max(...xs) + margin, Math.max(...ys) + margin];
+    // Where nothing bounds it, all of the way is seen.
+    const column = (name) => (this.model?.samples.columns.get(name) ?? []).filter((n) => n !== null);
+    const [xs, ys] = [['x', 'bx'], ['y', 'by']].map((names, i) => [...names.flatMap(column), ...all.map((p) => p[i])]);
+    const [low, high] = [Math.min, Math.max].map((best) => (numbers) => numbers.reduce((a, b) => best(a, b)));
+    const frame = all.length ? [low(xs) - 40, low(ys) - 40, high(xs) + 40, high(ys) + 40] : [-60, -50, 60, 50];
+    const [left, bottom, right, top] = frame.map((n, i) => (i < 2 ? Math.min : Math.max)(n, world?.view?.[i] ?? n));
+    const [w, h] = [Math.max(0, 120 - (right - left)) / 2, Math.max(0, 100 - (top - bottom)) / 2];
+    return [left - w, bottom - h, right + w, top + h];
   }
 
   get aspect() {

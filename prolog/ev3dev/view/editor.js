@@ -7,6 +7,7 @@ import { COLORS, EMPTY, KINDS, along, draftOf, factsOf, named, outside, worldOf 
 
 const TOOLS = Object.entries(KINDS).filter(([, { tool }]) => tool).map(([kind, { tool }]) => [kind, tool]);
 const NEAR = 12;
+const AROUND_SEEN = 12;
 /** A line to the program has at most 64 kB. */
 const LONGEST = 60000;
 const ARROWS = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
@@ -36,7 +37,9 @@ export class Editor {
     this.hint = el('p', { class: 'hint-text', role: 'status' });
     this.fields = el('form', { class: 'fields' });
     this.fields.addEventListener('submit', (event) => event.preventDefault());
-    this.list = el('ul', { class: 'things', 'aria-label': 'What is in the world' });
+    this.rows = el('ul', { 'aria-label': 'What is in the world' });
+    this.list = el('div', { class: 'things' }, this.rows);
+    this.list.addEventListener('scroll', () => this.renderRows());
     this.name = el('input', { type: 'text', maxLength: 32, spellcheck: false, autocomplete: 'off', id: 'edit-name' });
     this.file = el('input', { type: 'file', accept: '.pl', hidden: true, 'aria-label': 'A world to open' });
     this.file.addEventListener('change', () => this.opened());
@@ -514,22 +517,33 @@ export class Editor {
   }
 
   renderList() {
-    const things = [['around', this.draft.around], ['start', this.draft.start], ...this.draft.items.map((item) => [item.id, item])];
-    const key = JSON.stringify([this.selected, things]);
+    const { list, draft } = this;
+    this.things = [['around', draft.around], ['start', draft.start], ...draft.items.map((item) => [item.id, item])];
+    this.chosenAt = this.things.findIndex(([which]) => which === this.selected);
+    const focused = list.contains(document.activeElement);
+    // All rows are as high as the first one.
+    list.style.setProperty('--rows', this.things.length);
+    this.high = this.rows.offsetHeight / this.things.length || 1;
+    const top = this.chosenAt * this.high;
+    list.scrollTop = Math.max(top + this.high - list.clientHeight, Math.min(list.scrollTop, top));
+    this.renderRows();
+    if (focused) list.querySelector('[aria-pressed=true]')?.focus();
+  }
+
+  /** The rows of the list that are seen, and some around them. */
+  renderRows() {
+    const { list, things, high } = this;
+    const from = Math.max(0, Math.floor(list.scrollTop / high) - AROUND_SEEN);
+    const rows = things.slice(from, Math.ceil((list.scrollTop + list.clientHeight) / high) + AROUND_SEEN);
+    const key = JSON.stringify([from, this.selected, rows]);
     if (key === this.listKey) return;
     this.listKey = key;
-    const focused = this.list.contains(document.activeElement);
-    this.list.replaceChildren(...things.map(([which, thing]) => {
+    list.style.setProperty('--from', from);
+    this.rows.replaceChildren(...rows.map(([which, thing], i) => {
       const button = el('button', { type: 'button', 'aria-pressed': String(which === this.selected) }, KINDS[thing.kind].words(thing));
       button.addEventListener('click', () => this.select(which));
-      return el('li', {}, button);
+      return el('li', { 'aria-setsize': things.length, 'aria-posinset': from + i + 1 }, button);
     }));
-    const chosen = this.list.querySelector('[aria-pressed=true]');
-    if (focused) chosen?.focus();
-    if (chosen) {
-      const top = chosen.offsetTop - this.list.offsetTop;
-      this.list.scrollTop = Math.max(top + chosen.offsetHeight - this.list.clientHeight, Math.min(this.list.scrollTop, top));
-    }
   }
 }
 

@@ -65,7 +65,7 @@ export class Log {
     const { frame } = model;
     if (frame.new && this.rows.length) this.begins();
     if (frame.goals !== undefined && $('goal').hidden === Boolean(frame.goals)) $('goal').hidden = !frame.goals;
-    if (model.missed > 0) this.add([{ kind: 'begin', text: `${model.missed} lines are left out here.` }]);
+    if (model.missed > 0) this.leaveOut(model.missed);
     if (model.fresh.length) this.add(model.fresh.map((line) => ({ ...line, key: similar(line) })));
   }
 
@@ -74,6 +74,15 @@ export class Log {
     this.age += 1;
     for (const row of this.rows) row.box.classList.add('past');
     this.add([{ kind: 'begin', text: 'Another run begins.' }]);
+  }
+
+  /** What a frame lacks; if the last line says so already, it is one. */
+  leaveOut(lines) {
+    const last = this.rows[this.rows.length - 1];
+    this.left = (last?.kind === 'left' ? this.left : 0) + lines;
+    const words = `${this.left} lines are left out here.`;
+    if (last?.kind === 'left') text(last.words, (last.line = words));
+    else this.add([{ kind: 'left', text: words }]);
   }
 
   /** Lines at the end; the list stays where it is if somebody reads above. */
@@ -87,7 +96,7 @@ export class Log {
       for (const about of line.about ?? []) this.offer(about);
       const same = this.same(line);
       if (same) {
-        same.count += 1;
+        same.count += line.times ?? 1;
         this.fill(same, line);
       } else this.rows.push(this.row(line));
     }
@@ -106,7 +115,7 @@ export class Log {
 
   row(line) {
     const row = {
-      key: line.key, kind: line.kind, about: line.about, age: this.age, start: line.time, count: 1,
+      key: line.key, kind: line.kind, about: line.about, age: this.age, start: line.time, count: line.times ?? 1,
       words: el('span'), times: el('span', { class: 'times', hidden: true }), why: el('span', { class: 'why' }),
     };
     row.box = el('li', { class: line.kind, tabIndex: -1, hidden: !this.passes(row) },
@@ -119,12 +128,12 @@ export class Log {
   }
 
   fill(row, line) {
-    row.at = line.time;
+    row.at = line.until ?? line.time;
     text(row.words, line.text);
     row.line = line.text;
     if (row.count > 1) {
       row.times.hidden = false;
-      const [from, until] = [row.start, line.time].map((time) => (Number.isFinite(time) ? clock(time) : ''));
+      const [from, until] = [row.start, row.at].map((time) => (Number.isFinite(time) ? clock(time) : ''));
       text(row.times, until === from ? `×${row.count}` : `×${row.count} until ${until}`);
     }
     row.causes = line.causes ?? [];

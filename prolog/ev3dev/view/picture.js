@@ -33,7 +33,7 @@ export class Picture extends Camera {
     const parts = [1, 3, 5].map((i) => Math.min(255, 1.085 * parseInt(color.slice(i, i + 2), 16)));
     if (!this.dark) return `rgb(${parts.map(Math.round).join(' ')})`;
     const light = 0.3 * parts[0] + 0.59 * parts[1] + 0.11 * parts[2];
-    const dim = (c) => Math.round(Math.max(0, Math.min(255, 12 + 0.2 * light + 0.6 * (c - light))));
+    const dim = (c) => Math.round(Math.max(0, Math.min(255, 4 + 0.29 * light + 0.6 * (c - light))));
     return `rgb(${parts.map(dim).join(' ')})`;
   }
 
@@ -238,7 +238,11 @@ export class Picture extends Camera {
     else if (way > 0.05) {
       path.lineTo(x[i], y[i]);
       line.grows = true;
-    } else return;
+    } else {
+      // It stood until now, and then it is lifted.
+      line.last[2] = time;
+      return;
+    }
     line.last = [x[i], y[i], time];
   }
 

@@ -62,10 +62,8 @@ export class Program {
     this.files.hidden = files.length < 2;
     this.files.replaceChildren(...files.map((each) => el('option', { value: each, selected: each === file }, base(each))));
     this.title.textContent = files.length < 2 ? base(file) : 'Program';
-    this.lines = text.replace(/\n$/, '').split('\n').map((words) => {
-      const [, code, comment] = /^((?:'[^']*'|"[^"]*"|0'.|[^%'"])*)(.*)$/.exec(words);
-      return el('li', {}, el('code', {}, code || (comment ? '' : ' '), ...(comment ? [el('i', {}, comment)] : [])));
-    });
+    const lines = colored(text.replace(/\n$/, ''));
+    this.lines = lines.map((parts) => el('li', {}, el('code', {}, ...(parts.length ? parts : [' ']))));
     this.text = text.split('\n');
     this.list.replaceChildren(...this.lines);
     this.marked = [];
@@ -123,6 +121,34 @@ export class Program {
     const called = goal ? clause.filter((i) => new RegExp(`(^|[^\\w$])${goal.replace(/[^\w]/g, '\\$&')}($|[^\\w])`).test(i === line - 1 ? this.text[i].replace(/^[^:]*:-/, '') : this.text[i])) : [];
     if (called.length === 1) this.lines[called[0]].classList.add('called');
   }
+}
+
+const TOKEN = /(\/\*[^]*?(?:\*\/|$)|%.*)|(0'(?:\\.|''|.)|'(?:[^'\\]|\\[^]|'')*'|"(?:[^"\\]|\\[^])*")|(\b[A-Z_]\w*)|(\b\d+(?:\.\d+)?)|(:-|-->|->|~>|::|\\\+)|[^]/g;
+const COLORS = ['comment', 'text', 'variable', 'number', 'operator'];
+
+/** The lines of a program, each as texts and elements that have a color. */
+function colored(text) {
+  const lines = [[]];
+  let plain = '';
+  const put = (make) => (words) => {
+    words.split('\n').forEach((part, i) => {
+      if (i) lines.push([]);
+      if (part) lines[lines.length - 1].push(make(part));
+    });
+  };
+  const putPlain = put((part) => part);
+  for (const [words, ...kinds] of text.matchAll(TOKEN)) {
+    const kind = COLORS[kinds.findIndex((each) => each !== undefined)];
+    if (!kind) {
+      plain += words;
+      continue;
+    }
+    putPlain(plain);
+    plain = '';
+    put((part) => el(kind === 'comment' ? 'i' : 'span', { class: kind }, part))(words);
+  }
+  putPlain(plain);
+  return lines;
 }
 
 const base = (file) => file.replace(/.*\//, '');

@@ -70,7 +70,7 @@ export class World extends Picture {
       // A box that moves leaves what is being measured; another world does not.
       if (model.frame.new) this.measured = null;
       if (!this.camera.own || model.frame.new) this.fit();
-    } else if (!this.camera.own && !model.world) this.fit();
+    } else if (!this.camera.own && !model.world?.bounds && !model.frame.calm) this.fit();
     if (model.frame.new && this.following) this.following = true;
     this.motion = this.blend(before, interval);
     this.stale ||= !model.frame.calm || (this.fades && !model.frame.clock.stands);

@@ -8,12 +8,14 @@ use ev3_motion::{Bounds, OUT_OF_RANGE, Pose};
 const ABSOLUTE_ZERO: f64 = -273.15;
 const HOTTEST: f64 = 1000.0;
 
-/// Checks the corners of the walls around a world. Errors: if they have no inside.
+/// Checks the corners of the walls around a world. Errors: if they are too far, or have no inside.
 pub fn check_bounds(bounds: &Bounds) -> Result<(), SpecError> {
-    if bounds.is_in_range() && bounds.has_inside() {
-        return Ok(());
-    }
-    Err(SpecError::new("bounds", "must have an inside").in_part(Part::Bounds))
+    let wrong = match (bounds.is_in_range(), bounds.has_inside()) {
+        (true, true) => return Ok(()),
+        (false, _) => OUT_OF_RANGE,
+        (true, false) => "must have an inside",
+    };
+    Err(SpecError::new("bounds", wrong).in_part(Part::Bounds))
 }
 
 /// A world.

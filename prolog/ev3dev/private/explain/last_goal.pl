@@ -317,7 +317,7 @@ take(Clause, PC, Called, Goal) :-
         nb_setval(ev3dev_last_goal, at(Clause, PC, Name/Arity))
     ),
     (   Called \== none,
-        nb_getval(ev3dev_used_robot, false),
+        nb_current(ev3dev_used_robot, false),
         is_of_pack(Called)
     ->  nb_setval(ev3dev_used_robot, true)
     ;   true

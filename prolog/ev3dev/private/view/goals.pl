@@ -94,6 +94,18 @@ solve(Text, Number, Page, Former) :-
     ended(Former),
     goal_solve(Text, Page, Number, told).
 
+%   There is nobody who could answer the tracer.
+:- multifile user:prolog_trace_interception/4.
+:- dynamic user:prolog_trace_interception/4.
+
+user:prolog_trace_interception(_, _, _, nodebug) :-
+    thread_self(Me),
+    ev3dev_view_goals:running(_, _, Me),
+    notrace,
+    ev3dev_view_log:note(warning,
+                         "A goal of a page cannot be traced. Type trace. at \c
+                          the prompt of Prolog, and call the goal there.").
+
 told(Word) :-
     thread_get_message(ev3dev_view_goal(Word)).
 

@@ -143,13 +143,14 @@ log_commands(Ended) :-
     view_printed_(Ended, Times, Texts),
     log_each(Done, Times, Texts).
 
-log_each([done(At, What-Command, Cause)|Done], Times, Texts) :-
+log_each([done(Span, What-Command, Cause)|Done], Times, Texts) :-
     (   Times = [Time|_]
-    ->  At =< Time
+    ->  Span = span(At, _, _),
+        At =< Time
     ;   true
     ),
     !,
-    log_command(Command, What, At, Cause),
+    log_command(Command, What, Span, Cause),
     log_each(Done, Times, Texts).
 log_each(Done, [Time|Times], [Text|Texts]) :-
     !,
