@@ -23,7 +23,9 @@ mod threads;
 use self::notes::notes;
 use self::reach::{keep_samples, seconds, stop_motors};
 use self::state::{Decimal, Entry};
+use crate::glue::call::Call;
 use crate::glue::state::{has_tree, show_brick};
+use crate::glue::terms::Prolog;
 use crate::glue::watch;
 use crate::sim::running_simulations;
 use ev3_signals::latch::{self, Reason};
@@ -93,16 +95,10 @@ natives! {
             let texts: Vec<state::Text> = call.map_list(list, |text| owned(&text))?;
             Ok(Some(texts).filter(|all| !all.is_empty()))
         };
-        let (time, until, times) = match call.compound(time)?.as_ref().map(|(_, of)| &of[..]) {
-            Some([from, until, times]) => (call.float(from)?, call.float(until)?, call.integer(times)?),
-            _ if time.is_atom() => (seconds(), 0.0, 1),
-            _ => (call.float(time)?, 0.0, 1),
-        };
-        let (until, times) = ((times > 1).then_some(Decimal(until)), u64::try_from(times).ok());
+        let (time, until, times) = span(&call, time)?;
         let (kind, text, thread) = (owned(kind)?, owned(text)?, owned(thread)?);
         let thread = Some(thread).filter(|name: &state::Text| !name.is_empty());
         let (causes, about) = (some(causes)?, some(about)?);
-        let (time, times) = (Decimal(time), until.and(times));
         notes().log(Entry { n: 0, time, until, times, kind, text, causes, about, thread });
         Ok(())
     }
@@ -171,4 +167,19 @@ natives! {
         watch::note_user();
         into_prolog_result(true)
     }
+}
+
+/// From when until when, and how often, something was done; the last two if it was more than once.
+fn span<C: Prolog>(
+    call: &Call<C>,
+    time: &Term,
+) -> PrologResult<(Decimal<3>, Option<Decimal<3>>, Option<u64>)> {
+    let arguments = call.compound(time)?.map(|(_, arguments)| arguments);
+    let [from, until, times] = &arguments.unwrap_or_default()[..] else {
+        let at = if time.is_atom() { seconds() } else { call.float(time)? };
+        return Ok((Decimal(at), None, None));
+    };
+    let again = u64::try_from(call.integer(times)?).ok().filter(|times| *times > 1);
+    let until = Decimal(call.float(until)?);
+    Ok((Decimal(call.float(from)?), again.map(|_| until), again))
 }

@@ -1513,9 +1513,10 @@ group('goals', ROOM, 'goals(true)', (it) => {
   });
 
   test('that are no goals are refused in words', async () => {
-    const { text } = await ask('go_cm 30, 20.', /operator expected/i);
+    const { text } = await ask('go_cm 30, 20.', /Operator expected: arguments are in parentheses: go_cm\(30\)/);
+    assert.match(text, /operator expected/i);
     assert.doesNotMatch(text, /operator_expected|stream/);
-    await ask('X = "abc.', /end of .*string/i);
+    await ask('X = "abc.', /string: the " in line 1 has no end/);
   });
 
   test('show that they run, and are ended by STOP', async () => {

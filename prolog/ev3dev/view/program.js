@@ -123,31 +123,23 @@ export class Program {
   }
 }
 
-const TOKEN = /(\/\*[^]*?(?:\*\/|$)|%.*)|(0'(?:\\.|''|.)|'(?:[^'\\]|\\[^]|'')*'|"(?:[^"\\]|\\[^])*")|(\b[A-Z_]\w*)|(\b\d+(?:\.\d+)?)|(:-|-->|->|~>|::|\\\+)|[^]/g;
+const TOKEN = /(\/\*[^]*?(?:\*\/|$)|%.*)|(0'(?:\\.|''|.)|'(?:[^'\\]|\\[^]|'')*'|"(?:[^"\\]|\\[^])*")|(\b[A-Z_]\w*)|(\b\d+(?:\.\d+)?)|(:-|-->|->|~>|::|\\\+)/g;
 const COLORS = ['comment', 'text', 'variable', 'number', 'operator'];
 
 /** The lines of a program, each as texts and elements that have a color. */
 function colored(text) {
   const lines = [[]];
-  let plain = '';
-  const put = (make) => (words) => {
-    words.split('\n').forEach((part, i) => {
-      if (i) lines.push([]);
-      if (part) lines[lines.length - 1].push(make(part));
-    });
-  };
-  const putPlain = put((part) => part);
-  for (const [words, ...kinds] of text.matchAll(TOKEN)) {
-    const kind = COLORS[kinds.findIndex((each) => each !== undefined)];
-    if (!kind) {
-      plain += words;
-      continue;
-    }
-    putPlain(plain);
-    plain = '';
-    put((part) => el(kind === 'comment' ? 'i' : 'span', { class: kind }, part))(words);
+  const put = (words, kind) => words.split('\n').forEach((part, i) => {
+    if (i) lines.push([]);
+    if (part) lines.at(-1).push(kind ? el(kind === 'comment' ? 'i' : 'span', { class: kind }, part) : part);
+  });
+  let end = 0;
+  for (const { 0: words, index, ...kinds } of text.matchAll(TOKEN)) {
+    put(text.slice(end, index));
+    put(words, COLORS.find((_, i) => kinds[i + 1] !== undefined));
+    end = index + words.length;
   }
-  putPlain(plain);
+  put(text.slice(end));
   return lines;
 }
 

@@ -71,7 +71,6 @@ export class World extends Picture {
       if (model.frame.new) this.measured = null;
       if (!this.camera.own || model.frame.new) this.fit();
     } else if (!this.camera.own && !model.world?.bounds && !model.frame.calm) this.fit();
-    if (model.frame.new && this.following) this.following = true;
     this.motion = this.blend(before, interval);
     this.stale ||= !model.frame.calm || (this.fades && !model.frame.clock.stands);
     if (model.frame.calm) return;
@@ -407,9 +406,8 @@ export class World extends Picture {
       action('Remove', 'Remove it from the world', () => { this.send(`remove ${selected.id}`); this.select(null); });
     }
     box.hidden = !words;
-    const key = `${words}`;
-    if (this.toldKey === key) return;
-    this.toldKey = key;
+    if (this.toldKey === words) return;
+    this.toldKey = words;
     const kept = box.querySelector('p');
     if (kept && this.toldActions === actions.map((a) => a[0]).join()) {
       text(kept, words);
