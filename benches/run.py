@@ -418,7 +418,7 @@ COUNTED = {
     "state": "state(outB,_)"}
 
 
-def instructions(root, times=80, calls=8):
+def instructions(root, times=80, calls=2):
     """Instructions a call of the five hottest predicates, in the loop of
     benches/calls.pl, and of that loop alone, by callgrind: what twice as many calls take
     more. Of each length the least of so many loops counts, as what the clock brings is in the
