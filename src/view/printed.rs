@@ -10,7 +10,7 @@ use std::time::Duration;
 /// How much is kept until somebody looks: texts, the bytes of all, and those after which one is
 /// full. Of what a program prints without a pause nobody could read more.
 const TEXTS: usize = 200;
-const BYTES: usize = 12 * FULL;
+const BYTES: usize = 4 * FULL;
 const FULL: usize = 1500;
 
 /// What is written within such a time is one text.

@@ -996,7 +996,7 @@ group('STOP', ROOM, '', (it) => {
     assert.equal(await it.session.ask('X = 2, write(X)'), '2');
     await it.session.ask('go(20), wait(0.2)');
     await it.page.click('#stop');
-    await shows(it.page, (s) => s.ports.every((port) => !port.state?.includes('running')), 'motors that stand');
+    await shows(it.page, (s) => s.ports.every((port) => !port.state?.includes('running')) && !s.program.latched, 'motors that stand');
     assert.equal(await it.session.ask('go_cm(30, 3), write(done)'), 'done', 'motors run again');
   });
 
