@@ -45,8 +45,8 @@ cleans up after a goal.
 %
 %   Watch all programs that are loaded now; no goal of Query has been called.
 %   A debugger has its own break points, and while it traces, those here would
-%   be in its way. In version 10.1 a goal at a break point gets other variables
-%   than its clause has, so nothing is watched there.
+%   be in its way. In version 10.1 a goal at a break point gets other
+%   variables than its clause has, so nothing is watched there.
 
 watch_goals(Query) :-
     nb_setval(ev3dev_last_goal, []),
