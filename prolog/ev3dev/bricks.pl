@@ -85,6 +85,7 @@ simulation. A thread begins with the brick of the thread that made it.
 %       'use_module(library(ev3dev/worker)),work', '-t', halt])`.
 %
 %   @error permission_error(open, brick, Name) if that name is taken
+%   @error domain_error(brick_name, '')
 %   @error domain_error(brick_place, Where)
 %   @error existence_error(directory, Directory)
 %   @error existence_error(connection, Name) if no worker answers in a minute
@@ -92,6 +93,11 @@ simulation. A thread begins with the brick of the thread that made it.
 
 brick_open(Name, Where) :-
     must_be(atom, Name),
+    (   Name == ''
+    ->  throw_error(domain_error(brick_name, Name), _,
+                    'the name of a brick has at least one letter')
+    ;   true
+    ),
     must_be(nonvar, Where),
     (   named_brick(Name, far(Far), _),
         ev3dev_far:is_lost(Far)

@@ -269,6 +269,8 @@ note_event :-
     nb_setval(happened, Now).
 
 :- begin_tests(bricks_bad_input).
+test(a_name_has_letters, error(domain_error(brick_name, ''), _)) :-
+    brick_open('', sim).
 test(wrong, [ forall(member(Goal-Error,
                             [ brick_open(_, sim)-instantiation_error,
                               brick_open(7, sim)-type_error(atom, 7),

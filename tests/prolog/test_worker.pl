@@ -62,6 +62,10 @@ fake(Text, command(sh, ['-c', Command])) :-
     format(atom(Command), "printf '~s'; grep -q end", [Text]).
 
 :- begin_tests(worker, [setup(( far_place(Where), brick_open(anna, Where) )), cleanup(brick_close(anna))]).
+test(what_aborts_its_goal_is_an_error_here,
+     [ forall(member(Ball, ['$aborted', unwind(abort), unwind(halt(7))])),
+       true(memberchk(Formal, [system_error(aborted), existence_error(connection, bob)])) ]) :-
+    catch(with_far(bob, far(bob, throw(Ball))), error(Formal, _), true).
 test(a_solution_a_failure_an_error, X-No-E == 3-failed-error(type_error(evaluable, a/0))) :-
     far(anna, X is 1+2),
     ( far(anna, fail) -> No = succeeded ; No = failed ),

@@ -74,8 +74,9 @@ impl Value {
     #[expect(clippy::cast_precision_loss, reason = "sensor values have 32 bits, decimals are few")]
     pub fn scaled(value: i64, decimals: i64) -> Self {
         match i32::try_from(decimals) {
-            Ok(0) | Err(_) => Self::Integer(value),
-            Ok(decimals) => Self::Float(value as f64 / 10f64.powi(decimals)),
+            Ok(decimals @ 1..=38) => Self::Float(value as f64 / 10f64.powi(decimals)),
+            // No sensor has such a number.
+            _ => Self::Integer(value),
         }
     }
 }
@@ -129,6 +130,14 @@ pub fn first_line(bytes: &[u8]) -> &[u8] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn decimals_that_no_sensor_has_do_not_count() {
+        assert_eq!(Value::scaled(25, 1), Value::Float(2.5));
+        for decimals in [0, -1, 39, 1 << 31, i64::MAX] {
+            assert_eq!(Value::scaled(25, decimals), Value::Integer(25));
+        }
+    }
 
     #[test]
     fn integers_are_decimal_and_whole() {

@@ -3,7 +3,7 @@ use crate::class::Class;
 use crate::device::Device;
 use crate::device::motion::{End, MotorRun};
 use crate::device::registry::Registry;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::motor::wait::{TOLERANCE, has};
 use crate::value::Value;
 use std::time::Duration;
@@ -147,12 +147,14 @@ fn counts(motor: &Device, angle: f64) -> Result<Option<i64>> {
 /// Tacho counts for a degree of what the motor drives, or a millimeter of a linear actuator.
 #[expect(clippy::cast_precision_loss, reason = "counts are few")]
 pub fn counts_per_unit(motor: &Device) -> Result<f64> {
-    let counts = if motor.is_linear() {
-        motor.constant("count_per_m")? as f64 / 1000.0
-    } else {
-        motor.constant("count_per_rot")? as f64 / 360.0
-    };
-    Ok(counts * motor.gear())
+    let (attribute, units) =
+        if motor.is_linear() { ("count_per_m", 1000.0) } else { ("count_per_rot", 360.0) };
+    let counts = motor.constant(attribute)?;
+    if counts == 0 {
+        let (path, text) = (motor.path().join(attribute), "0".to_owned());
+        return Err(Error::Malformed { path, text, expected: "a number of counts" });
+    }
+    Ok(counts as f64 / units * motor.gear())
 }
 
 /// `max_speed`, or `count_per_rot` for a turn of what the motor drives, if the driver has

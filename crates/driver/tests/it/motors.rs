@@ -4,8 +4,8 @@ use crate::files::PlainTree;
 use ev3_driver::Class;
 use ev3_driver::motor::wait::{Reason, wait_for};
 use ev3_driver::motor::{
-    Extent, Move, MoveOptions, Run, Speed, StopAction, command, reset, run_forever, run_one,
-    run_to, stop, stop_all, stop_connected, stop_started,
+    Extent, Move, MoveOptions, Run, Speed, StopAction, command, measured, reset, run_forever,
+    run_one, run_to, stop, stop_all, stop_connected, stop_started,
 };
 use ev3_driver::{Errno, Error, attributes};
 use std::fs;
@@ -180,6 +180,15 @@ fn an_angle_is_converted_by_the_counts_of_a_rotation() {
     run_to(&brick.devices(), &moves, &options, &mut brick.attentive()).unwrap().unwrap();
     brick.pass(ms(500));
     assert_near(position(&brick, "outA"), 90);
+}
+
+#[test]
+fn a_motor_without_counts_is_an_error_and_no_number() {
+    let brick = Brick::new(&["outA"]);
+    brick.world().motor("outA").count_per_rot = 0;
+    let found = motors(&brick.devices(), &["outA"]);
+    let error = measured(&found[0], "position").unwrap_err();
+    assert!(error.to_string().contains("count_per_rot holds \"0\""), "{error}");
 }
 
 #[test]

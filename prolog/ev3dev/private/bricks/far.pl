@@ -182,9 +182,21 @@ hear(Far, _, _, answer, Number, Answer) :-
     given(Far, Number, Answer).
 hear(_, Name, _, output, _, Text) :-
     !,
-    format(user_output, '~w: ~s~n', [Name, Text]),
+    string_codes(Text, Codes0),
+    harmless(Codes0, Codes),
+    format(user_output, '~w: ~s~n', [Name, Codes]),
     flush_output(user_output).
 hear(_Far, _Name, _Out, _, _Number, _Version).
+
+%   A terminal takes the others as orders.
+
+harmless([], []).
+harmless([Code0|Codes0], [Code|Codes]) :-
+    (   ( Code0 >= 0' , \+ between(127, 159, Code0) ; Code0 =:= 0'\t )
+    ->  Code = Code0
+    ;   Code = 0'?
+    ),
+    harmless(Codes0, Codes).
 
 %   What nobody waits for any more is dropped.
 
@@ -247,7 +259,9 @@ asked(Far, Kind, Request, Solution) :-
     ->  Solution = Solution0
     ;   Answer = error(Error0)
     ->  format(atom(Where), 'on the brick ~w', [Name]),
-        (   error_within(Error0, Where, Error)
+        (   ends_program(Error0)
+        ->  throw_error(system_error(aborted), _, Where)
+        ;   error_within(Error0, Where, Error)
         ->  throw(Error)
         ;   throw(Error0)
         )
@@ -259,6 +273,15 @@ asked(Far, Kind, Request, Solution) :-
                      as a stream')
     ;   fail
     ).
+
+%   It ended the goal there, and is no order for this program.
+
+ends_program(Error) :-
+    nonvar(Error),
+    (   Error == '$aborted'
+    ;   Error = unwind(_)
+    ),
+    !.
 
 answer_to(Far, Kind, Request, Answer) :-
     flag(ev3dev_far_call, Number0, Number0+1),

@@ -305,7 +305,11 @@ because(absent(Kind, Port), existence_error(Class, Name), Text) :-
 because(too_fast(Who, Percent), domain_error(speed, Percent), Text) :-
     (   abs(Percent) < 1.0e9,
         abs(Percent) >= 101
-    ->  Shown is round(Percent)
+    ->  Tenths is round(Percent*10),
+        (   Tenths mod 10 =:= 0
+        ->  Shown is Tenths//10
+        ;   Shown is Tenths/10.0
+        )
     ;   Shown = Percent
     ),
     format(atom(Text), '~w cannot run at ~w %: its highest speed is 100 %',
