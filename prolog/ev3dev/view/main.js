@@ -28,8 +28,8 @@ let animation = 0;
 let arrived = 0;
 let interval = 50;
 
-/** If a frame with no news comes sooner than this, in ms, the server does not wait for news: it is
-    asked again after some time, or when a hand does something. */
+/** If no program runs, and a frame with no news comes within so many ms, the server does not wait
+    for news: it is asked again later, or when a hand does something. */
 const SOON = 200;
 const LATER = 1000;
 let asked = 0;
@@ -38,7 +38,9 @@ let later = 0;
 function ask(now = false) {
   clearTimeout(later);
   later = 0;
-  if (!now && model.frame?.calm && performance.now() - asked < SOON) later = setTimeout(ask, LATER, true);
+  const { calm, clock: time, program: of } = model.frame ?? {};
+  const rests = calm && (time.paused || of.state !== 'running');
+  if (!now && rests && performance.now() - asked < SOON) later = setTimeout(ask, LATER, true);
   else {
     asked = performance.now();
     wire.next();

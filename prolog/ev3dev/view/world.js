@@ -18,10 +18,9 @@ const ANSWERED_WITHIN = 10000;
 const short = (n) => Number(n.toFixed(2));
 
 export class World extends Picture {
-  constructor(send, done) {
+  constructor(send) {
     super();
     this.send = send;
-    this.done = done;
     this.canvas = $('world');
     this.context = this.canvas.getContext('2d');
     this.camera = { x: 0, y: 0, scale: 2, own: false };
@@ -38,7 +37,6 @@ export class World extends Picture {
     this.model = null;
     /** Something is not drawn yet. */
     this.stale = false;
-    /** The pictures so far. */
     this.drawings = 0;
     /** An editor, while it has the world. */
     this.editing = null;
@@ -136,9 +134,9 @@ export class World extends Picture {
     const { frame, world } = this.model;
     const parts = this.model.until === undefined ? [] : [`As it was at ${num(this.model.time, 2)} s.`];
     if (world) {
-      const things = this.solids(world.items ?? []);
+      const things = this.solids(world.items);
       const size = world.bounds ? `, ${num(world.bounds[2] - world.bounds[0])} by ${num(world.bounds[3] - world.bounds[1])} cm` : '';
-      parts.push(`${this.model.name ? `World ${this.model.name}` : 'A world'}${size}, ${things} ${things === 1 ? 'obstacle' : 'obstacles'}.`);
+      parts.push(`${this.model.name ? `World ${this.model.name}` : 'A world'}${size}, ${things} obstacle${things === 1 ? '' : 's'}.`);
     }
     const said = (pose) => `x ${num(pose[0])}, y ${num(pose[1])}, heading ${num(pose[2])}`;
     const { true: truly, believed } = frame.robot ?? {};
@@ -152,7 +150,6 @@ export class World extends Picture {
     attribute(this.canvas, 'aria-label', this.words);
   }
 
-  /** How many obstacles there are. */
   solids(items) {
     if (this.counted?.items !== items) this.counted = { items, count: items.filter((item) => KINDS[item.kind].solid).length };
     return this.counted.count;
