@@ -132,7 +132,8 @@ function heard(message) {
   if (type === 'answer') {
     failed = message.state === 'error' ? message.text : null;
     console_.answer(message);
-  } else if (type === 'say') {
+  } else if (type === 'reads') console_.reads(true);
+  else if (type === 'say') {
     window.speechSynthesis?.speak(new SpeechSynthesisUtterance(message.text));
   } else if (type === 'raised') {
     if (failed) {
@@ -175,6 +176,10 @@ function stop() {
 }
 
 function running(runs) {
+  if (!runs) {
+    console_.reads(false);
+    console_.nextPasted();
+  }
   text($('run'), runs ? 'Stop' : 'Run');
   toggle($('run'), 'stops', runs);
   attribute($('run'), 'title', runs ? 'Stop the program and all motors' : 'Load the program and run it (Ctrl Enter)');

@@ -4,6 +4,9 @@ import { $, el, text } from './view/dom.js';
 
 /** How many rows and letters are kept. */
 const MOST = { rows: 1000, letters: 200_000 };
+const KEY = 'ev3dev playground queries';
+/** An answer that is longer is folded. */
+const LONG = 300;
 const SHOWN = new Set(['output', 'goal', 'answer', 'warning', 'error', 'stop', 'mark']);
 
 export class Console {
@@ -13,8 +16,11 @@ export class Console {
     this.goTo = goTo;
     this.list = $('said');
     this.input = $('query-text');
-    this.history = [];
-    this.at = 0;
+    this.history = read();
+    this.at = this.history.length;
+    /** Whether the program reads a line; and lines that were pasted, which are asked in turn. */
+    this.reading = false;
+    this.pasted = [];
     this.next = 1;
     this.newest = -1;
     this.line = null;
@@ -25,6 +31,7 @@ export class Console {
       event.preventDefault();
       this.ask(this.input.value.trim());
     });
+    this.input.addEventListener('paste', (event) => this.paste(event));
     this.input.addEventListener('keydown', (event) => this.key(event));
     for (const word of ['more', 'enough']) $(`query-${word}`).addEventListener('click', () => this.another(word));
     $('said-clear').addEventListener('click', () => this.clear());
@@ -47,6 +54,7 @@ export class Console {
     this.newest = -1;
     this.waits = null;
     this.wait(null);
+    this.reads(false);
   }
 
   say(kind, words) {
@@ -70,6 +78,7 @@ export class Console {
     const place = /^(?:\S*\.pl:|line )(\d+)(?::\d+)?:\s*/.exec(words);
     const row = el('li', { 'data-kind': kind }, place ? words.slice(place[0].length) : words);
     if (place) this.link(row, Number(place[1]));
+    if (kind === 'answer' && words.length > LONG) row.replaceChildren(el('details', {}, el('summary', {}, `${words.slice(0, LONG)} …`), words.slice(LONG)));
     this.letters += row.textContent.length;
     return row;
   }
@@ -98,7 +107,39 @@ export class Console {
     }
   }
 
+  /** The program reads a line, or does no more. */
+  reads(does) {
+    if (!does && !this.reading) return;
+    this.reading = does;
+    text($('query-mark'), does ? '|:' : '?-');
+    text($('query-hint'), does ? 'The program reads: type a term and a full stop.' : '');
+    if (does) {
+      this.input.focus();
+      this.nextPasted();
+    }
+  }
+
+  /** Several lines are several queries, or lines of what is read. */
+  paste(event) {
+    const all = (event.clipboardData?.getData('text') ?? '').replace(/\r/g, '');
+    if (!all.trim().includes('\n')) return;
+    event.preventDefault();
+    this.pasted = this.reading ? all.split('\n') : all.trim().split(/(?<=\.)\s*\n/).map((goal) => goal.replace(/^\s*\?-\s*/, '').replace(/\s*\n\s*/g, ' '));
+    this.nextPasted();
+  }
+
+  /** The next of what was pasted; also asked when the program has ended. */
+  nextPasted() {
+    if (this.pasted.length) this.ask(this.pasted.shift());
+  }
+
   ask(goal) {
+    if (this.reading) {
+      this.say('goal', `|: ${goal}`);
+      this.input.value = '';
+      this.reads(false);
+      return this.send(`input ${goal}`);
+    }
     if (!goal && this.waits) return this.another('enough');
     if (!goal) return;
     if (goal === ';' && this.waits) {
@@ -109,6 +150,7 @@ export class Console {
     this.next += 1;
     this.line = null;
     this.history.push(goal);
+    keep(this.history);
     this.at = this.history.length;
     this.input.value = '';
     this.wait(null);
@@ -123,6 +165,8 @@ export class Console {
   /** What became of a goal. The answer itself is in the log. */
   answer({ n, state }) {
     this.wait(state === 'more' ? String(n) : null);
+    // Another goal asks for no more answers of this one.
+    if (state === 'more') this.nextPasted();
   }
 
   wait(n) {
@@ -134,4 +178,18 @@ export class Console {
   refused(why) {
     this.say('warning', why);
   }
+}
+
+function read() {
+  try {
+    return JSON.parse(localStorage.getItem(KEY)) ?? [];
+  } catch {
+    return [];
+  }
+}
+
+function keep(queries) {
+  try {
+    localStorage.setItem(KEY, JSON.stringify(queries.slice(-100)));
+  } catch { /* They are not kept where a browser does not allow it. */ }
 }

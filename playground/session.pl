@@ -1,11 +1,13 @@
 :- module(ev3dev_playground,
           [ session/0
           ]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists)).
 :- use_module(library(prolog_codewalk), [prolog_walk_code/1]).
 :- use_module(library(wasm), [(:=)/2, await/2, op(700, xfx, :=)]).
 % What is typed finds them without a program.
 :- user:use_module(library(ev3dev)).
+:- user:use_module('../prolog/ev3dev/private/help/own_help').
 :- user:use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/sim), []).
 :- use_module(library(ev3dev/time), [wait/1]).
@@ -38,6 +40,7 @@ these:
 | `run NAME TEXT` | load TEXT as the program NAME, and run it |
 | `load NAME TEXT` | load it only |
 | `check NAME EXERCISE TEXT` | try it on an exercise of the course |
+| `input TEXT` | a line that the program reads, after `{"type":"reads"}` |
 | `goal N TEXT`, `more N`, `enough N` | as there |
 
 `run` and `load` are answered by `done` with `errors`, a list of
@@ -190,8 +193,8 @@ program(Word, Name, Text) :-
     ->  true
     ;   Word \== run
     ->  true
-    ;   entry(Text, Goal)
-    ->  goal(Goal, 0)
+    ;   entry(Text, Goals)
+    ->  forall(member(Goal, Goals), goal(Goal, 0))
     ;   note(warning, "The program is loaded. It has no start/0 to begin with: \c
                        type a query.")
     ).
@@ -271,24 +274,39 @@ finding(Kind, Line, Text) :-
         note(Kind, Said)
     ).
 
-%   The goal that a program is begun by: the first query of its comments, or one
-%   of the usual names.
-entry(Text, Goal) :-
+%   The goals that a program is begun by: the queries of its comments up to the
+%   first that it defines, such as `?- sim_start(delivery).` and `?- start.`;
+%   else one of the usual names.
+entry(Text, Goals) :-
     split_string(Text, "\n", "", Lines),
-    member(Line, Lines),
-    string_concat("%", Comment, Line),
-    split_string(Comment, "", " .\r", [Query0]),
-    string_concat("?- ", Query, Query0),
+    findall(Query, ( member(Line, Lines), query_in(Line, Query) ), Queries),
+    Queries = [First|_],
     !,
-    (   sub_string(Query, Before, _, _, ". ")
-    ->  sub_string(Query, 0, Before, _, Goal)
-    ;   Goal = Query
+    (   append(Before, [Own|_], Queries),
+        own(Own)
+    ->  append(Before, [Own], Goals)
+    ;   Goals = [First]
     ).
-entry(_, Goal) :-
+entry(_, [Goal]) :-
     member(Name, [start, main, go]),
     current_predicate(user:Name/0),
     !,
     atom_string(Name, Goal).
+
+query_in(Line, Query) :-
+    string_concat("%", Comment, Line),
+    split_string(Comment, "", " .\r", [Query0]),
+    string_concat("?- ", Query1, Query0),
+    (   sub_string(Query1, Before, _, _, ". ")
+    ->  sub_string(Query1, 0, Before, _, Query)
+    ;   Query = Query1
+    ).
+
+own(Query) :-
+    catch(term_string(Goal, Query), error(_, _), fail),
+    callable(Goal),
+    program_file(File),
+    predicate_property(user:Goal, file(File)).
 
 goal(Text, Number) :-
     page(Page),
@@ -328,6 +346,89 @@ halted(_) :-
     view_stop_motors_,
     note(stop, "halt: the program ends, and all motors brake"),
     abort.
+
+% ---------------- WHAT THE PROGRAM READS
+
+%   The page's line for queries answers it.
+:- redefine_system_predicate(user:read(_)).
+:- redefine_system_predicate(user:read_term(_, _)).
+:- redefine_system_predicate(user:consult(_)).
+:- redefine_system_predicate(user:'[|]'(_, _)).
+
+user:read(Term) :-
+    ev3dev_playground:typed_term(Term, []).
+
+user:read_term(Term, Options) :-
+    ev3dev_playground:typed_term(Term, Options).
+
+user:consult(File) :-
+    ev3dev_playground:consulted(File).
+
+user:[File|Files] :-
+    ev3dev_playground:consulted([File|Files]).
+
+consulted(Files) :-
+    (   is_list(Files)
+    ->  maplist(consulted, Files)
+    ;   Files == user
+    ->  consult_typed
+    ;   user:load_files(Files, [])
+    ).
+
+%   A term may have several lines.
+typed_term(Term, Options) :-
+    (   can_yield
+    ->  typed_lines(end_of_term, Text)
+    ;   Text = "end_of_file."
+    ),
+    setup_call_cleanup(
+        open_string(Text, In),
+        read_term(In, Term, [module(user)|Options]),
+        close(In)).
+
+%   Clauses, until a line has nothing in it.
+consult_typed :-
+    note(output, "Type clauses. A line with nothing in it ends them."),
+    typed_lines(nothing, Text),
+    absolute_file_name('typed.pl', File),
+    setup_call_cleanup(
+        open_string(Text, In),
+        load_files(user:File, [stream(In)]),
+        close(In)).
+
+typed_lines(End, Text) :-
+    output_noted,
+    page(Page),
+    view_say_(Page, json([type=reads])),
+    typed_line(Line),
+    (   ends_typed(End, Line)
+    ->  Text = Line
+    ;   typed_lines(End, Rest),
+        string_concat(Line, Rest, Text)
+    ).
+
+ends_typed(_, "end_of_file.\n").
+ends_typed(nothing, "\n").
+ends_typed(end_of_term, Line) :-
+    split_string(Line, "", " \n", [Bare]),
+    sub_string(Bare, _, 1, 0, ".").
+
+%   Meanwhile the page is served, and STOP is heard.
+typed_line(Typed) :-
+    beat(Beat),
+    setup_call_cleanup(
+        ( set_prolog_flag(heartbeat, 0),
+          nb_setval(ev3dev_playground_turn, on) ),
+        ( next_line(Line),
+          word_rest(Line, Word, Rest) ),
+        ( nb_setval(ev3dev_playground_turn, off),
+          set_prolog_flag(heartbeat, Beat) )),
+    (   Word == input
+    ->  string_concat(Rest, "\n", Typed)
+    ;   heard(Line),
+        ( is_stopping -> abort ; true ),
+        typed_line(Typed)
+    ).
 
 % ---------------- THE TRACER
 

@@ -229,6 +229,47 @@ describe('the playground', () => {
     await idle(page);
   });
 
+  test('answers what a program reads, and what is typed as at the toplevel', async () => {
+    await run(page, `${HEAD}start :- read(Cm), writeln(got(Cm)), read(Next), writeln(next(Next)).\n`);
+    await until(() => page.$eval('#query-mark', (mark) => mark.textContent === '|:'), 'a program that reads');
+    await ask(page, '5.');
+    await said(page, /^got\(5\)/);
+    await ask(page, 'point(1,');
+    await ask(page, '2).');
+    await said(page, /^next\(point\(1,2\)\)/);
+    await idle(page);
+    await ask(page, '[user].');
+    await said(page, /^Type clauses/);
+    await page.evaluate(() => {
+      const clipboardData = new DataTransfer();
+      clipboardData.setData('text', 'likes(mary, wine).\nlikes(john, X) :-\n    likes(X, wine).\n\n');
+      document.getElementById('query-text').dispatchEvent(new ClipboardEvent('paste', { clipboardData, bubbles: true, cancelable: true }));
+    });
+    await idle(page);
+    await page.click('#said-clear');
+    await page.evaluate(() => {
+      const clipboardData = new DataTransfer();
+      clipboardData.setData('text', '?- likes(john, Who).\n?- Other = $Who,\n   atom(Other).');
+      document.getElementById('query-text').dispatchEvent(new ClipboardEvent('paste', { clipboardData, bubbles: true, cancelable: true }));
+    });
+    await said(page, /^Who = mary/);
+    await said(page, /^Other = mary/);
+    await idle(page);
+    await ask(page, 'read(X).');
+    await until(() => page.$eval('#query-mark', (mark) => mark.textContent === '|:'), 'a goal that reads');
+    await page.keyboard.press('Escape');
+    await said(page, /^stopped/);
+    await idle(page);
+    await ask(page, 'help(go_cm).');
+    await said(page, /Go straight on for Distance cm/);
+    await idle(page);
+    await ask(page, 'numlist(1, 200, L).');
+    await until(() => page.$('#said details'), 'a long answer that is folded');
+    await page.keyboard.press('ArrowUp');
+    assert.equal(await page.$eval('#query-text', (field) => field.value), 'numlist(1, 200, L).');
+    await page.$eval('#query-text', (field) => { field.value = ''; });
+  });
+
   test('goes on after engines, branches and output that is caught', async () => {
     await page.click('#said-clear');
     await ask(page, 'engine_create(L, (wait(0.2), numlist(1, 30000, L)), E), engine_next(E, [One|_]), writeln(engine(One)).');

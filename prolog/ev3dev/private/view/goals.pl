@@ -18,7 +18,9 @@ it prints and its answers. There is nothing for it to read.
 
 :- meta_predicate goal_solve(+, +, +, 1).
 
-:- dynamic running/3.                   % Page, Number, Thread
+:- dynamic
+    running/3,                          % Page, Number, Thread
+    earlier/2.                          % Name, Value: of an answer
 
 %   failed(Goal): what else is to be said of a goal that is false.
 :- multifile failed/1.
@@ -166,10 +168,14 @@ solve_(Text, Number, Page, In, Next) :-
     set_stream(In, alias(user_input)),
     set_input(In),
     thread_self(Me),
-    term_string_with_names(Text, Goal, Names),
+    term_string_with_names(Text, Goal0, Names),
+    with_earlier(Goal0, Names, Goal),
     (   solution(Goal, Last),
         part_ends(Me),
         say_of_input(In),
+        forall(( member(Name=Value, Names), nonvar(Value) ),
+               ( retractall(earlier(Name, _)),
+                 assertz(earlier(Name, Value)) )),
         bindings_text(Names, Answer),
         (   Last == true
         ->  answer(Page, Number, last, Answer)
@@ -184,6 +190,28 @@ solve_(Text, Number, Page, In, Next) :-
         answer(Page, Number, false, "false"),
         forall(failed(Goal), true)
     ).
+
+%   $X is the X of an answer before, as at the toplevel.
+
+with_earlier(Term, Names, Earlier) :-
+    (   \+ compound(Term)
+    ->  Earlier = Term
+    ;   Term = $(Variable),
+        member(Name=Named, Names),
+        Named == Variable
+    ->  (   earlier(Name, Earlier)
+        ->  true
+        ;   throw(error(existence_error(answer, Name), _))
+        )
+    ;   Term =.. [Functor|Arguments],
+        all_earlier(Arguments, Names, Earliers),
+        Earlier =.. [Functor|Earliers]
+    ).
+
+all_earlier([], _, []).
+all_earlier([Term|Terms], Names, [Earlier|Earliers]) :-
+    with_earlier(Term, Names, Earlier),
+    all_earlier(Terms, Names, Earliers).
 
 solution(Goal, Last) :-
     call_cleanup(user:Goal, Deterministic = true),
@@ -219,7 +247,7 @@ bindings_text(Names, Text) :-
               nonvar(Value),
               format(string(Line), "~w = ~W",
                      [ Name, Value,
-                       [ quoted(true), portray(true), max_depth(30),
+                       [ quoted(true), portray(true), max_depth(500),
                          spacing(next_argument) ] ])
             ),
             Lines),
