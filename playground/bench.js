@@ -25,7 +25,6 @@ drive :-
     drive.
 `;
 const KEY = 'ev3dev playground';
-const DIRECTORY = '/home/web_user/';
 
 const kept = read();
 const machine = new Machine({ begins, took, runs, heard, ends, worldChanged: keep });
@@ -117,7 +116,7 @@ function took(frame) {
   if (frame.program?.state !== program?.state) running(frame.program?.state === 'running');
   program = frame.program;
   tone.take(frame.brick?.tone ?? 0);
-  if (frame.active !== undefined) editor.active((frame.active ?? []).filter(({ file }) => file === DIRECTORY + name()));
+  if (frame.active !== undefined) editor.active((frame.active ?? []).filter(({ file }) => file === name()));
 }
 
 /** What was begun runs, until a frame says that it has ended. */

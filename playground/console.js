@@ -75,7 +75,7 @@ export class Console {
   }
 
   row(kind, words) {
-    const place = /^(?:\S*\.pl:|line )(\d+)(?::\d+)?:\s*/.exec(words);
+    const place = /^(?:% )?(?:\S*\.pl:|line )(\d+)(?::\d+)?:\s*/.exec(words);
     const row = el('li', { 'data-kind': kind }, place ? words.slice(place[0].length) : words);
     if (place) this.link(row, Number(place[1]));
     if (kind === 'answer' && words.length > LONG) row.replaceChildren(el('details', {}, el('summary', {}, `${words.slice(0, LONG)} …`), words.slice(LONG)));

@@ -5,7 +5,9 @@
 %   swipl -p library=prolog playground/examples.pl EXAMPLE...
 
 :- use_module(library(http/json)).
+:- use_module(library(lists), [select/4]).
 :- use_module(library(main)).
+:- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(ev3dev/private/marking/read)).
 :- load_files(demo_script:'../tools/demo.pl', []).
 
@@ -25,7 +27,21 @@ example(Name, Json) :-
     format(atom(File), "examples/~w.pl", [Name]),
     (   demo_script:demo(Name, World, _) -> true ; World = room ),
     (   demo_script:robot(Name, Robot) -> true ; Robot = default ),
-    entry('Examples', Name, File, World, Robot, Json).
+    entry('Examples', Name, File, World, Robot, json(Members0)),
+    (   keys(Name, Keys)
+    ->  select(about=About0, Members0, about=About, Members),
+        format(string(About), "~w It waits for keys of the brick: ~w.", [About0, Keys])
+    ;   Members = Members0
+    ),
+    Json = json(Members).
+
+%   Those that somebody has to press.
+keys(Name, Text) :-
+    clause(demo_script:prepare(Name), Body),
+    findall(Key, ( sub_term(sim_press(Key, _), Body), atom(Key) ), Keys0),
+    sort(Keys0, Keys),
+    Keys \== [],
+    atomic_list_concat(Keys, ', ', Text).
 
 %   An exercise begins in the world of its first seed.
 skeleton(Json) :-

@@ -6,6 +6,8 @@ const PATIENCE = 60;
 /** So long nobody may ask for a frame, as a view that is not seen does not; then the page does. */
 const UNSEEN = 250;
 
+const HOME = '/home/web_user/';
+
 export class Machine {
   /** `on` has: begins(), took(message), runs(), ends(why), and `heard(message)`, of each that is no frame. */
   constructor(on) {
@@ -42,7 +44,8 @@ export class Machine {
       else this.fails(data.fault);
       return;
     }
-    const message = JSON.parse(data);
+    // Nobody has chosen the folder in which the program is.
+    const message = JSON.parse(data.replaceAll(HOME, ''));
     if (message.type === 'frame') {
       this.have = message.have;
       this.pose = message.robot?.true;

@@ -58,10 +58,12 @@ the page is sent a frame. STOP is an abort at such a place.
     driving/1,                          % Round
     deferred/1,                         % Line: what is done when the program has ended
     found/3,                            % Line, Kind, Text: of the program that is loaded
+    imported_first/1,                   % Head: what was there without a program
     loading/0,
     program_file/1,
     raised/1,                           % Line: of the last error
-    tracing_goals/0.
+    tracing_goals/0,
+    warned/0.
 
 %   The page has no number: there is one.
 page(0).
@@ -95,6 +97,7 @@ session :-
 
 begin :-
     assertz(began),
+    forall(imported(Head), assertz(imported_first(Head))),
     page_settings(60, true),
     worlds_settings(localhost),
     watch_messages,
@@ -206,7 +209,21 @@ forget_program :-
     forall(( predicate_property(user:Head, dynamic),
              \+ predicate_property(user:Head, imported_from(_)),
              \+ predicate_property(user:Head, multifile) ),
+           retractall(user:Head)),
+    forall(( imported(Head),
+             \+ imported_first(Head) ),
+           ( functor(Head, Name, Arity),
+             catch(abolish(user:Name/Arity), error(_, _), true) )),
+    % A domain of library(ev3dev/golog) is declared again.
+    retractall(ev3dev_golog:declared(user, _)),
+    forall(( ev3dev_golog:vocabulary(Name/Arity),
+             functor(Head, Name, Arity),
+             predicate_property(user:Head, dynamic) ),
            retractall(user:Head)).
+
+imported(Head) :-
+    predicate_property(user:Head, imported_from(Module)),
+    sub_atom(Module, 0, _, _, ev3dev).
 
 program_written(Name, Text, File) :-
     absolute_file_name(Name, File),
@@ -311,6 +328,7 @@ own(Query) :-
 goal(Text, Number) :-
     page(Page),
     retractall(raised(_)),
+    retractall(warned),
     running(traced(goal_solve(Text, Page, Number, answered))),
     (   retract(raised(Line))
     ->  view_say_(Page, json([type=raised, line=Line]))
@@ -321,6 +339,7 @@ goal(Text, Number) :-
 :- multifile ev3dev_view_goals:failed/1.
 
 ev3dev_view_goals:failed(Goal) :-
+    \+ retract(warned),                 % that says why
     callable(Goal),
     program_file(File),
     predicate_property(user:Goal, file(File)),
@@ -663,7 +682,12 @@ said(informational, _, Lines) :-
     string_concat("% ", Text0, Text),
     note(output, Text),
     fail.
-said(_, _, _).
+said(Kind, _, _) :-
+    (   Kind == warning
+    ->  retractall(warned),
+        assertz(warned)
+    ;   true
+    ).
 
 %   What is said of the program while it is loaded stands at its line.
 of_program(Kind, Message, Lines) :-
