@@ -12,8 +12,8 @@
 :- use_module(library(ev3dev/sim), []).
 :- use_module(library(ev3dev/time), [wait/1]).
 :- use_module('../prolog/ev3dev/private/native/native',
-              [ brick_use_/1, view_hear_/3, view_held_/0, view_open_/0, view_pace_/1,
-                view_say_/2, view_step_/2, view_stop_motors_/0,
+              [ brick_use_/1, view_hear_/3, view_held_/0, view_open_/0,
+                view_pace_/1, view_say_/2, view_step_/2, view_stop_motors_/0,
                 view_thread_/1 ]).
 :- use_module('../prolog/ev3dev/private/run/brick', [brick/1]).
 :- use_module(check, [checked/4, checking/0]).

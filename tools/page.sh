@@ -26,6 +26,8 @@ main() {
     mkdir -p "$root/target/page"
     write_linker "$root/target/page/ld"
     cd "$root"
+    [ -e target/page/ev3dev.wasm ] ||
+        echo "compiling the library for the browser: the first time takes some minutes"
     export RUSTC=$toolchain/bin/rustc CARGO_TARGET_DIR=$root/target/page/cargo
     # A panic ends the page's worker.
     export CARGO_PROFILE_RELEASE_PANIC=abort CARGO_PROFILE_RELEASE_OPT_LEVEL=3

@@ -496,8 +496,7 @@ describe('a phone', () => {
     assert.ok((await wide())[0] <= 390);
     await run(page, `${HEAD}start :- writeln(done).\n`);
     await said(page, /^done/);
-    await page.click('#tabs [data-shows=robot]');
-    await until(async () => page.$eval('#robot', (frame) => frame.clientWidth > 300), 'the robot');
+    await until(async () => page.$eval('#robot', (frame) => getComputedStyle(frame).visibility === 'visible' && frame.clientWidth > 300), 'the robot, which Run shows');
     assert.ok((await wide()).every((width) => width <= 390));
     await page.end();
   });
