@@ -252,7 +252,7 @@ async function examples() {
 /** An example, or an exercise with its task. */
 function choose(found) {
   if (!found) return;
-  show({ name: `${found.name}.pl`, text: found.text, world: found.lines, task: found.task ? found.name : '' }, found.about);
+  show({ name: `${found.name}.pl`, text: found.text, world: found.lines, task: found.task ? found.name : '' }, found.task ? '' : found.about);
   if (found.task) showTask();
 }
 
