@@ -51,8 +51,7 @@ cleans up after a goal.
 watch_goals(Query) :-
     nb_setval(ev3dev_last_goal, []),
     nb_setval(ev3dev_used_robot, false),
-    (   ( current_prolog_flag(debug, true) ; debugs(Query) ; in_use
-        ; unsafe )
+    (   ( current_prolog_flag(debug, true) ; debugs(Query) ; in_use ; unsafe )
     ->  forall(retract(watched(Clause, PC, _, _)),
                break(Clause, PC, false)),
         retractall(done(_, _))
