@@ -2,12 +2,12 @@
 # The playground: examples do the same in SWI-Prolog's WebAssembly build as natively, byte for
 # byte, and the page does what a person expects, in Chromium and in Firefox.
 #
-#   tests/playground/check.sh [--traces [EXAMPLE...] | --marks [EXERCISE...] | --page [ARGUMENT...] | --figures |
-#       --pictures]
+#   tests/playground/check.sh [--traces [EXAMPLE...] | --marks [EXERCISE...] |
+#       --page [ARGUMENT...] | --figures | --pictures]
 #
 # Arguments of --page go to `node --test`, in Chromium alone. --figures prints how long things
 # take, --pictures makes those of docs/playground.md; these and --page take what `make playground`
-# has built. Without a browser only traces are compared, and it says so.
+# has built. Without a browser only traces and marks are compared, and it says so.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -18,9 +18,7 @@ case $what in
     --all) tools/playground.sh ;;
 esac
 case $what in
-    --traces | --all) node tests/playground/traces.mjs target/playground "$@" ;;
-esac
-case $what in
+    --traces | --all) node tests/playground/traces.mjs target/playground "$@" ;;&
     --marks | --all) node tests/playground/marks.mjs target/playground "$@" ;;
 esac
 case $what in
