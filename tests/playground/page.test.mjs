@@ -220,7 +220,7 @@ describe('the playground', () => {
     await idle(page);
   });
 
-  test('answers what a program reads, and what is typed as at the toplevel', async () => {
+  test('answers what a program reads, and what is typed as at the toplevel', { skip: isFirefox && 'a script of Firefox cannot paste' }, async () => {
     await run(page, `${HEAD}start :- read(Cm), writeln(got(Cm)), read(Next), writeln(next(Next)).\n`);
     await until(() => page.$eval('#query-mark', (mark) => mark.textContent === '|:'), 'a program that reads');
     await ask(page, '5.');
