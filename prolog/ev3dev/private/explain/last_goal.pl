@@ -33,12 +33,19 @@ the tail when that goal has succeeded.
 
 The clauses of libraries are not watched, nor what threads call, nor what
 cleans up after a goal.
+
+A loop that only computes takes ten nanoseconds a round, so notes would make it
+a hundred times as slow. After 20000 notes without a goal of the pack, a break
+point that is met is removed, up to the next goal of the pack; from then on
+fewer notes are enough. While one is missing, no goal is known to be the last.
 */
 
 :- meta_predicate outcome(0, -).
 
 :- dynamic
     watched/4,
+    uses_robot/2,                       % Clause, PC
+    removed/2,                          % Clause, PC
     done/2.                             % File, when it was changed
 
 %!  watch_goals(+Query) is det.
@@ -51,9 +58,13 @@ cleans up after a goal.
 watch_goals(Query) :-
     nb_setval(ev3dev_last_goal, []),
     nb_setval(ev3dev_used_robot, false),
+    nb_setval(ev3dev_notes, 0),
+    nb_setval(ev3dev_most_notes, 20000),
+    set_again,
     (   ( current_prolog_flag(debug, true) ; debugs(Query) ; in_use ; unsafe )
     ->  forall(retract(watched(Clause, PC, _, _)),
                break(Clause, PC, false)),
+        retractall(uses_robot(_, _)),
         retractall(done(_, _))
     ;   forall(( program_file(File, Time), \+ done(File, Time) ),
                watch_file(File, Time))
@@ -161,9 +172,17 @@ watch(Instruction, Clause, PC) :-
 
 set(Clause, PC, Called, Tail) :-
     (   break(Clause, PC, true)
-    ->  assertz(watched(Clause, PC, Called, Tail))
+    ->  assertz(watched(Clause, PC, Called, Tail)),
+        (   Called = _:_,
+            is_of_pack(Called)
+        ->  assertz(uses_robot(Clause, PC))
+        ;   true
+        )
     ;   true
     ).
+
+set_again :-
+    forall(retract(removed(Clause, PC)), break(Clause, PC, true)).
 
 break(Clause, PC, Set) :-
     catch('$break_at'(Clause, PC, Set), error(_, _), fail),
@@ -245,8 +264,41 @@ prolog:break_hook(Clause, PC, Frame, _, Goal, _, Action) :-
 stopped(Clause, PC, Frame, Goal, Action) :-
     watched(Clause, PC, Called, Tail),
     !,
-    catch(unthought(take(Clause, PC, Called, Tail, Frame, Goal, Action)),
+    catch(unthought(note(Clause, PC, Called, Tail, Frame, Goal, Action)),
           error(resource_error(_), _), Action = continue).
+
+note(Clause, PC, Called, Tail, Frame, Goal, Action) :-
+    (   computes_long(Clause, PC)
+    ->  assertz(removed(Clause, PC)),
+        break(Clause, PC, false),
+        Action = continue
+    ;   take(Clause, PC, Called, Tail, Frame, Goal, Action)
+    ).
+
+computes_long(Clause, PC) :-
+    most_notes(Most0),
+    (   uses_robot(Clause, PC)
+    ->  (   removed(_, _)
+        ->  Most is max(Most0//4, 500),
+            nb_setval(ev3dev_most_notes, Most),
+            set_again
+        ;   true
+        ),
+        nb_setval(ev3dev_notes, 0),
+        fail
+    ;   ( nb_current(ev3dev_notes, Count0) -> true ; Count0 = 0 ),
+        Count is Count0+1,
+        nb_setval(ev3dev_notes, Count),
+        Count > Most0
+    ).
+
+%   Each thread has its own.
+
+most_notes(Most) :-
+    (   nb_current(ev3dev_most_notes, Most0)
+    ->  Most = Most0
+    ;   Most = 20000
+    ).
 
 %   A note takes none of the time that thinking takes, nor do the five calls
 %   before it.
@@ -344,6 +396,7 @@ used_robot :-
 %   `File:Line: `.
 
 last_goal(Shown, In, Place) :-
+    \+ removed(_, _),
     nb_current(ev3dev_last_goal, at(Clause, PC, Goal0)),
     clause_property(Clause, predicate(In0)),
     ( In0 = user:In -> true ; In = In0 ),
