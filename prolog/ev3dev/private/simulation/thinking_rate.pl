@@ -22,7 +22,8 @@ thinking_rate(Options, Inferences) :-
     (   rate(Thinking, Inferences)
     ->  true
     ;   throw_error(domain_error(thinking, Thinking), _,
-                    'it is free, brick, or a number of inferences a second')
+                    'thinking is free, brick, or a whole number of \c
+                     inferences per second')
     ).
 
 rate(free, 0).
