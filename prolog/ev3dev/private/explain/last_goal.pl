@@ -34,8 +34,8 @@ the tail when that goal has succeeded.
 The clauses of libraries are not watched, nor what threads call, nor what
 cleans up after a goal.
 
-A loop that only computes takes ten nanoseconds a round, so notes would make it
-a hundred times as slow. After 20000 notes without a goal of the pack, a break
+A loop that only computes takes ten nanoseconds a round, so notes would make
+it a hundred times as slow. After 20000 notes without a goal of the pack, a break
 point that is met is removed, up to the next goal of the pack; from then on
 fewer notes are enough. While one is missing, no goal is known to be the last.
 */
