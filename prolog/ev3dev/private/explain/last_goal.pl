@@ -37,7 +37,7 @@ cleans up after a goal.
 A loop that only computes takes ten nanoseconds a round, so notes would make
 it a hundred times as slow. After 20000 notes without a goal of the pack, a break
 point that is met is removed, up to the next goal of the pack; from then on
-fewer notes are enough. While one is missing, no goal is known to be the last.
+fewer notes are enough. While one is missing, nobody knows the last goal.
 */
 
 :- meta_predicate outcome(0, -).
@@ -396,7 +396,6 @@ used_robot :-
 %   `File:Line: `.
 
 last_goal(Shown, In, Place) :-
-    \+ removed(_, _),
     nb_current(ev3dev_last_goal, at(Clause, PC, Goal0)),
     clause_property(Clause, predicate(In0)),
     ( In0 = user:In -> true ; In = In0 ),
@@ -444,13 +443,15 @@ report(thrown(Ball), _) :-
 
 prolog:message(ev3dev(failed(Goal))) -->
     { shown(Goal, Shown) },
-    (   { last_goal(Last, In, Place) }
+    (   { \+ removed(_, _), last_goal(Last, In, Place) }
     ->  [ '~w~w failed; its last goal was ~w, in ~q'-
           [Place, Shown, Last, In] ]
     ;   [ '~w failed'-[Shown] ]
     ).
 prolog:message(ev3dev(thrown(Ball))) -->
-    (   { nb_current(ev3dev_last_goal, at(_, _, Goal)),
+    (   { % A stack that is full filled in the loop that was noted.
+          ( Ball = error(resource_error(_), _) -> true ; \+ removed(_, _) ),
+          nb_current(ev3dev_last_goal, at(_, _, Goal)),
           last_goal(_, _, Place) }
     ->  [ '~w'-[Place] ],
         { blamed(Ball, Goal, Blamed) }
