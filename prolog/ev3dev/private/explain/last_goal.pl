@@ -35,9 +35,9 @@ The clauses of libraries are not watched, nor what threads call, nor what
 cleans up after a goal.
 
 A loop that only computes takes ten nanoseconds a round, so notes would make
-it a hundred times as slow. After 20000 notes without a goal of the pack, a break
-point that is met is removed, up to the next goal of the pack; from then on
-fewer notes are enough. While one is missing, nobody knows the last goal.
+it a hundred times as slow. After 20000 notes without a goal of the pack, each
+break point that is met is removed, up to the next goal of the pack; from then
+on fewer notes are enough. While one is missing, nobody knows the last goal.
 */
 
 :- meta_predicate outcome(0, -).
