@@ -8,10 +8,12 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
 /// How much is kept until somebody looks: texts, the bytes of all, and those after which one is
-/// full. Of what a program prints without a pause nobody could read more.
+/// full. Of what a program prints without a pause nobody could read more, but its first
+/// [`AT_FIRST`] bytes are there in any case: a listing, a plan.
 const TEXTS: usize = 200;
 const BYTES: usize = 4 * FULL;
 const FULL: usize = 1500;
+const AT_FIRST: usize = 20_000;
 
 /// What is written within such a time is one text.
 const TOGETHER: f64 = 0.02;
@@ -23,6 +25,9 @@ const PATIENCE: Duration = Duration::from_millis(500);
 static KEEPS: AtomicBool = AtomicBool::new(false);
 
 static PRINTED: Mutex<VecDeque<Printed>> = Mutex::new(VecDeque::new());
+
+/// How many of the first bytes are still to come.
+static FIRST: AtomicUsize = AtomicUsize::new(AT_FIRST);
 
 /// How many letters were left out since somebody looked.
 static LEFT_OUT: AtomicUsize = AtomicUsize::new(0);
@@ -55,7 +60,9 @@ impl Printed {
 /// Whether what is written from now on is kept. The toplevel ends a line that is not complete.
 pub(super) fn keep(keeps: bool) {
     KEEPS.store(keeps, Ordering::Relaxed);
-    if !keeps {
+    if keeps {
+        FIRST.store(AT_FIRST, Ordering::Relaxed);
+    } else {
         let mut printed = locked(&PRINTED);
         if let Some(last) = printed.back_mut().filter(|last| !last.bytes.ends_with(b"\n")) {
             last.bytes.push(b'\n');
@@ -74,7 +81,8 @@ pub(super) fn written(bytes: &[u8]) {
         let mut rest = line;
         while !rest.is_empty() {
             if !printed.back().is_some_and(|last| last.takes(rest.len(), time)) {
-                while printed.len() == TEXTS || bytes_of(&printed) > BYTES {
+                let room = BYTES.max(FIRST.load(Ordering::Relaxed));
+                while printed.len() == TEXTS || bytes_of(&printed) > room {
                     let oldest = printed.pop_front().map_or(0, |text| letters(&text.bytes));
                     LEFT_OUT.fetch_add(oldest, Ordering::Relaxed);
                 }
@@ -111,6 +119,9 @@ fn letters(bytes: &[u8]) -> usize {
 pub(super) fn take(is_all: bool) -> (Vec<f64>, Vec<String>) {
     let mut printed = locked(&PRINTED);
     let ready = printed.iter().take_while(|each| is_all || each.is_complete()).count();
+    let bytes: usize = printed.iter().take(ready).map(|each| each.bytes.len()).sum();
+    let first = FIRST.load(Ordering::Relaxed);
+    FIRST.store(first.saturating_sub(bytes), Ordering::Relaxed);
     let taken = printed.drain(..ready).map(|each| (each.time, plain(&each.bytes)));
     let (mut times, mut texts): (Vec<_>, Vec<_>) =
         taken.filter(|(_, text)| !text.is_empty()).unzip();

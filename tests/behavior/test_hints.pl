@@ -154,7 +154,7 @@ impossible(motors_turn([move(outB, 20, 9), move(outC, 20, 1.0e300)], []),
            'outC cannot turn by 1.0e+300 degrees').
 impossible(( motor_gear(outB, 3), motor_run(outB, dps(400)) ),
            'outB cannot run at 114 %').
-impossible(go(cm_per_s(500)), 'outB cannot run at 974 %').
+impossible(go(cm_per_s(500)), 'outB cannot run at 974.4 %').
 impossible(led(left, blue), 'left cannot show blue').
 impossible(sim_press(in4), 'in4 has lego-ev3-gyro, no touch sensor').
 impossible(sim_release(in4), 'in4 has lego-ev3-gyro, no touch sensor').
