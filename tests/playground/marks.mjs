@@ -13,9 +13,9 @@ import { startProlog } from '../../playground/prolog.js';
 
 const [modules, ...named] = process.argv.slice(2);
 
-/** What is printed, natively; it fails if not all points are earned. */
+/** What is printed, natively; it fails if not all points are earned. The picture is left in `modules`. */
 const natively = (exercise, file) => new Promise((resolve) => {
-  execFile(process.env.SWIPL ?? 'swipl', ['app/ev3dev.pl', 'try', exercise, file], { cwd: home }, (_, out) => resolve(out.replace(/The picture: .*\n/, '')));
+  execFile(process.env.SWIPL ?? 'swipl', [path.join(home, 'app/ev3dev.pl'), 'try', exercise, path.resolve(file)], { cwd: modules }, (_, out) => resolve(out.replace(/The picture: .*\n/, '')));
 });
 
 const lines = [];
