@@ -253,11 +253,13 @@ processor_time(Cpu, From, Time, Seconds) :-
     ).
 
 %   What is shut in dies with bwrap. Otherwise a process may have left the
-%   group; it still has the environment that it began with.
+%   group; it still has the environment that it began with. A process that has
+%   just begun has no group yet, and process_wait/3 knows no time but 0.
 
 ended(Pid, Directory, Shut) :-
     catch(process_group_kill(Pid, kill), _, true),
-    catch(process_wait(Pid, _, [timeout(10)]), _, true),
+    catch(process_kill(Pid, kill), _, true),
+    catch(process_wait(Pid, _, []), _, true),
     (   Shut == true
     ->  true
     ;   atom_concat('EV3DEV_FENCED=', Directory, Mark),

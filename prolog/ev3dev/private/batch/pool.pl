@@ -53,8 +53,13 @@ start_workers(Number, Pool) :-
 :- initialization(at_halt(ev3dev_batch_pool:end_left), now).
 
 end_left :-
-    forall(retract(worker_process(Pid)),
-           catch(process_group_kill(Pid, kill), _, true)).
+    forall(retract(worker_process(Pid)), end_worker(Pid)).
+
+%   One that has just begun has no group yet.
+
+end_worker(Pid) :-
+    catch(process_group_kill(Pid, kill), _, true),
+    catch(process_kill(Pid, kill), _, true).
 
 start_worker(worker(Pid, In, Out)) :-
     current_prolog_flag(executable, Prolog),
@@ -106,7 +111,7 @@ has_died :-
 end_workers(Pool) :-
     forall(member(worker(Pid, In, Out), Pool),
            ( retractall(worker_process(Pid)),
-             catch(process_group_kill(Pid, kill), _, true),
+             end_worker(Pid),
              maplist(close_quietly, [In, Out]),
              catch(process_wait(Pid, _), _, true) )).
 
