@@ -7,7 +7,9 @@ use nix::libc::{self, c_int};
 use std::cell::{Cell, RefCell};
 use std::fs::File;
 use std::io::{Read as _, Write as _};
-use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU64, Ordering};
+#[cfg(target_has_atomic = "64")]
+use std::sync::atomic::AtomicU64;
+use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 use std::time::Duration;
 
 /// As many threads as start motors at the same time.
@@ -20,6 +22,33 @@ const TAKEN: c_int = 1;
 
 /// It is not known how often the thread has waited.
 const UNKNOWN: u64 = u64::MAX;
+
+/// For a processor without such numbers, as the brick's.
+#[cfg(not(target_has_atomic = "64"))]
+struct AtomicU64(std::sync::Mutex<u64>);
+
+#[cfg(not(target_has_atomic = "64"))]
+impl AtomicU64 {
+    const fn new(number: u64) -> Self {
+        Self(std::sync::Mutex::new(number))
+    }
+
+    fn load(&self, order: Ordering) -> u64 {
+        let number = self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let _ = order;
+        *number
+    }
+
+    fn store(&self, number: u64, order: Ordering) {
+        self.swap(number, order);
+    }
+
+    fn swap(&self, number: u64, order: Ordering) -> u64 {
+        let mut kept = self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let _ = order;
+        std::mem::replace(&mut *kept, number)
+    }
+}
 
 struct Slot {
     /// The clock of the thread's processor time.
@@ -60,17 +89,17 @@ impl Drop for Mine {
     }
 }
 
-static NOBODY: AtomicBool = AtomicBool::new(false);
-
 thread_local! {
-    static LIVES: Cell<&'static AtomicBool> = const { Cell::new(&NOBODY) };
+    static LIVES: Cell<Option<&'static AtomicBool>> = const { Cell::new(None) };
     static MINE: RefCell<Option<Mine>> = const { RefCell::new(None) };
 }
 
 /// This thread uses the robot.
 #[inline]
 pub fn lives() {
-    LIVES.get().store(true, Ordering::Relaxed);
+    if let Some(lives) = LIVES.get() {
+        lives.store(true, Ordering::Relaxed);
+    }
 }
 
 /// This thread, which the asker knows by that name, is about to start a motor, and may compute for
@@ -85,7 +114,7 @@ pub fn guard(name: u64, limit: Duration) {
             slot.name.store(name, Ordering::Relaxed);
             let limit = u64::try_from(limit.as_nanos()).unwrap_or(0);
             slot.limit.store(limit, Ordering::Relaxed);
-            LIVES.set(&slot.lives);
+            LIVES.set(Some(&slot.lives));
         }
     });
     if guarded.is_ok() {
