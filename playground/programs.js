@@ -1,5 +1,5 @@
 // The user's programs by name, as the browser keeps them: a text that would be replaced is kept
-// here before. There are so many at most; the oldest goes first.
+// here before. At most MOST programs are kept; the oldest goes first.
 
 const KEY = 'ev3dev playground programs';
 const MOST = 60;

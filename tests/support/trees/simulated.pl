@@ -47,7 +47,7 @@ clock(mount, Clock) :-
 
 %!  mount_clock(?Clock) is semidet.
 %
-%   That of the next mount.
+%   Clock is the clock of the next simulation that is mounted.
 
 :- dynamic mount_clock_/1.
 
