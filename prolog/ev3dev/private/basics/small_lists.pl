@@ -1,6 +1,7 @@
 :- module(ev3dev_small_lists,
           [ one_of/2,                   % +List, ?Element
             append_lists/3,             % ?List1, ?List2, ?List
+            and_list/2,                 % +Names, -Text
             first_of/3                  % +Count, +List, -First
           ]).
 
@@ -29,6 +30,19 @@ one_of([Element1|Elements], _, Element) :-
 append_lists([], List, List).
 append_lists([X|Xs], Ys, [X|Zs]) :-
     append_lists(Xs, Ys, Zs).
+
+%!  and_list(+Names, -Text) is det.
+%
+%   Text is an atom such as `outA, outB and outC`. Names has at least one.
+
+and_list([Name], Name) :-
+    !.
+and_list([First, Last], Text) :-
+    !,
+    atomic_list_concat([First, ' and ', Last], Text).
+and_list([Name|Names], Text) :-
+    and_list(Names, Text0),
+    atomic_list_concat([Name, ', ', Text0], Text).
 
 %!  first_of(+Count, +List, -First) is det.
 %

@@ -1,6 +1,6 @@
 :- module(ev3dev_queries, []).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module('../basics/small_lists', [one_of/2]).
+:- use_module('../basics/small_lists', [and_list/2, one_of/2]).
 :- use_module('../errors/frames', [program/1]).
 :- use_module('../native/native',
               [running_/1, view_held_/0, view_pause_/1]).
@@ -160,18 +160,7 @@ prolog:message(ev3dev(go_on(Ports))) -->
     { listed(Ports, Listed) },
     [ '~w still running while this waits: `a` ends the program'-[Listed] ].
 
-listed([Port], Listed) :-
-    !,
-    atom_concat(Port, ' is', Listed).
 listed(Ports, Listed) :-
-    append_last(Ports, Listed0),
-    atom_concat(Listed0, ' are', Listed).
-
-%   `outA, outB and outC`
-
-append_last([First, Last], Listed) :-
-    !,
-    atomic_list_concat([First, ' and ', Last], Listed).
-append_last([Port|Ports], Listed) :-
-    append_last(Ports, Listed0),
-    atomic_list_concat([Port, ', ', Listed0], Listed).
+    and_list(Ports, Names),
+    ( Ports = [_] -> Verb = is ; Verb = are ),
+    atomic_list_concat([Names, ' ', Verb], Listed).

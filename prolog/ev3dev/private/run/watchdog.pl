@@ -1,5 +1,6 @@
 :- module(ev3dev_watchdog, []).
-:- use_module('../basics/small_lists', [append_lists/3, one_of/2]).
+:- use_module('../basics/small_lists',
+              [and_list/2, append_lists/3, one_of/2]).
 :- use_module('../errors/frames', [program/1]).
 
 :- initialization(
@@ -128,21 +129,13 @@ place(Frame, Left, Place) :-
 :- multifile prolog:message//1.
 
 prolog:message(ev3dev(computed(Ports, Seconds, Place))) -->
-    ports(Ports),
-    [ ' stopped. The program computed for ~g s'-[Seconds] ],
+    { and_list(Ports, Names),
+      ( Ports = [_] -> Verb = was ; Verb = were )
+    },
+    [ '~w ~w stopped. The program computed for ~g s'-[Names, Verb, Seconds] ],
     at(Place),
     [ ', and nobody steered the robot meanwhile.'-[], nl,
       'Stop the robot before a long search, or call wait/1 in between.'-[] ].
-
-ports([Port]) -->
-    !,
-    [ '~w was'-[Port] ].
-ports([Port, Other]) -->
-    !,
-    [ '~w and ~w were'-[Port, Other] ].
-ports([Port|Ports]) -->
-    [ '~w, '-[Port] ],
-    ports(Ports).
 
 at(none) -->
     [].
