@@ -29,7 +29,7 @@ thread_local! {
 struct Entry {
     key: Key,
     /// The files in use, by [`state::files_number`].
-    files: u32,
+    files: u64,
     listed: Listed,
     registry: Weak<Registry>,
     device: Weak<Device>,
@@ -50,7 +50,7 @@ pub(crate) struct Found<'a> {
 /// When the devices of a class are looked for: what is found from then on may be kept.
 #[derive(Clone, Copy)]
 pub(crate) struct Look {
-    files: u32,
+    files: u64,
     listed: Listed,
 }
 
@@ -58,7 +58,7 @@ impl Look {
     /// `None` where nothing is kept.
     pub(crate) fn at(registry: &Registry, class: Class) -> Option<Self> {
         let files = state::files_number();
-        let keeps = !registry.tree().takes_turns();
+        let keeps = state::has_files_number() && !registry.tree().takes_turns();
         keeps.then(|| Self { files, listed: registry.listed(class) })
     }
 

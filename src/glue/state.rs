@@ -6,7 +6,7 @@ use ev3_driver::brick::sound::Sound;
 use ev3_driver::drive::{Drive, Robot};
 use ev3_driver::{Devfs, DevfsDir, Device, Registry, Sysfs, SysfsDir, journal, motor};
 use ev3_os::locked;
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::io;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -17,19 +17,17 @@ use std::time::Duration;
 use swipl::fli::{integer_flag, this_thread};
 
 /// A brick: its attribute files, its device files, and what this process knows
-/// of both. It is never freed, as any thread may have it in use; a closed one is empty.
+/// of both. A closed one is empty, and is freed when no thread has it in use.
 pub(crate) struct Brick {
     /// 0 is the brick that is there from the start. No number is used twice.
     number: u32,
     /// The files in use. A program may select others later.
     files: RwLock<InUse>,
-    /// Another number whenever other files may be in use: no two bricks have the same.
-    files_number: AtomicU32,
     /// The sounds that this program makes.
-    sound: Sound,
+    sound: Arc<Sound>,
     /// The picture that this program has drawn, if it has.
     frame: Mutex<Option<Frame>>,
-    watched: Watched,
+    watched: Arc<Watched>,
 }
 
 /// The files in use.
@@ -57,15 +55,14 @@ impl InTree {
 }
 
 impl Brick {
-    fn new(number: u32) -> &'static Self {
-        Box::leak(Box::new(Self {
+    fn new(number: u32) -> Arc<Self> {
+        Arc::new(Self {
             number,
             files: RwLock::new(InUse::default()),
-            files_number: AtomicU32::new(FILES.fetch_add(1, Ordering::Relaxed)),
-            sound: Sound::default(),
+            sound: Arc::default(),
             frame: Mutex::default(),
-            watched: Watched::default(),
-        }))
+            watched: Arc::default(),
+        })
     }
 
     fn files(&self) -> RwLockReadGuard<'_, InUse> {
@@ -73,7 +70,7 @@ impl Brick {
     }
 
     fn change_files(&self) -> RwLockWriteGuard<'_, InUse> {
-        self.files_number.store(FILES.fetch_add(1, Ordering::AcqRel), Ordering::Release);
+        FILES.fetch_add(1, Ordering::AcqRel);
         self.files.write().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -105,13 +102,12 @@ impl Default for InUse {
 }
 
 /// Those that are open, by their numbers; the first is always.
-static BRICKS: LazyLock<Mutex<Vec<&'static Brick>>> =
-    LazyLock::new(|| Mutex::new(vec![Brick::new(0)]));
+static BRICKS: LazyLock<Mutex<Vec<Arc<Brick>>>> = LazyLock::new(|| Mutex::new(vec![Brick::new(0)]));
 
 /// How many bricks were opened.
 static OPENED: AtomicU32 = AtomicU32::new(0);
 
-/// Counts what may have changed the files of a brick.
+/// Counts what may have changed the files of any brick.
 static FILES: AtomicU32 = AtomicU32::new(0);
 
 /// The brick of Prolog's main thread, by its number: pages show this one.
@@ -130,19 +126,28 @@ const MAIN_THREAD: i32 = 1;
 const FLAG: &std::ffi::CStr = c"ev3dev_brick";
 
 thread_local! {
-    static CURRENT: Cell<Option<&'static Brick>> = const { Cell::new(None) };
+    static CURRENT: RefCell<Option<Arc<Brick>>> = const { RefCell::new(None) };
+    /// Its number, if that is known: to ask for this takes fewer instructions.
+    static NUMBER: Cell<u32> = const { Cell::new(NOBODY) };
     /// Whether this thread, which serves a page, has the brick of the main thread in use.
     static FOLLOWS: Cell<bool> = const { Cell::new(false) };
 }
 
-/// The brick that this thread has in use.
+/// Has `act` done with the brick that this thread has in use.
 #[inline]
-fn current() -> &'static Brick {
-    CURRENT.get().unwrap_or_else(inherited)
+fn with_current<R>(act: impl FnOnce(&Brick) -> R) -> R {
+    CURRENT.with(|current| {
+        let current = current.borrow();
+        if let Some(brick) = &*current {
+            return act(brick);
+        }
+        drop(current);
+        act(&inherited())
+    })
 }
 
 #[cold]
-fn inherited() -> &'static Brick {
+fn inherited() -> Arc<Brick> {
     let thread = this_thread();
     if FOLLOWS.get() || thread < 1 {
         return shown();
@@ -151,16 +156,22 @@ fn inherited() -> &'static Brick {
     // One that was closed meanwhile has no files, and says so.
     let brick =
         number.map_or_else(first, |number| brick(number).unwrap_or_else(|| Brick::new(number)));
-    CURRENT.set(Some(brick));
+    set_current(&brick);
     brick
 }
 
+fn set_current(brick: &Arc<Brick>) {
+    NUMBER.set(brick.number);
+    CURRENT.set(Some(Arc::clone(brick)));
+}
+
 /// The brick that pages show.
-fn shown() -> &'static Brick {
+fn shown() -> Arc<Brick> {
     let [chosen, main] = [&CHOSEN, &SHOWN].map(|number| brick(number.load(Ordering::Acquire)));
-    let is_robot = |brick: &&Brick| brick.files().is_tree_chosen;
-    let any = || locked(&BRICKS).iter().copied().find(is_robot);
-    chosen.or_else(|| main.filter(is_robot)).or_else(any).or(main).unwrap_or_else(first)
+    let is_robot = |brick: &Arc<Brick>| brick.files().is_tree_chosen;
+    let any = || locked(&BRICKS).iter().find(|brick| is_robot(brick)).cloned();
+    let main_robot = || main.clone().filter(is_robot);
+    chosen.or_else(main_robot).or_else(any).or(main).unwrap_or_else(first)
 }
 
 /// The film that pages show.
@@ -174,14 +185,14 @@ pub(crate) fn show_robot(number: u32) {
     CHOSEN.store(NOBODY, Ordering::Release);
 }
 
-fn first() -> &'static Brick {
-    locked(&BRICKS)[0]
+fn first() -> Arc<Brick> {
+    Arc::clone(&locked(&BRICKS)[0])
 }
 
-fn brick(number: u32) -> Option<&'static Brick> {
+fn brick(number: u32) -> Option<Arc<Brick>> {
     let bricks = locked(&BRICKS);
     let at = bricks.binary_search_by_key(&number, |brick| brick.number).ok()?;
-    bricks.get(at).copied()
+    bricks.get(at).cloned()
 }
 
 /// The devices of all bricks whose tree is settled.
@@ -201,6 +212,7 @@ pub(crate) fn on_all_bricks(
 /// This thread serves a page from now on, or does not.
 pub(crate) fn follow_main_thread(follows: bool) {
     FOLLOWS.set(follows);
+    NUMBER.set(NOBODY);
     CURRENT.set(None);
 }
 
@@ -225,13 +237,13 @@ pub(crate) fn now_of(number: u32) -> Duration {
 }
 
 /// What is seen of the brick in use.
-pub(crate) fn watched() -> &'static Watched {
-    &current().watched
+pub(crate) fn watched() -> Arc<Watched> {
+    with_current(|brick| Arc::clone(&brick.watched))
 }
 
 /// The number of the brick in use.
 pub(crate) fn brick_number() -> u32 {
-    current().number
+    with_current(|brick| brick.number)
 }
 
 /// Makes a brick; its number.
@@ -244,12 +256,11 @@ pub(crate) fn open_brick() -> u32 {
 
 /// Has this thread use a brick from now on; `false` if it is not open.
 pub(crate) fn use_brick(number: u32) -> bool {
-    let before = current();
-    if before.number == number {
+    if brick_number() == number {
         return true;
     }
     let Some(brick) = brick(number) else { return false };
-    CURRENT.set(Some(brick));
+    set_current(&brick);
     if this_thread() == MAIN_THREAD {
         SHOWN.store(number, Ordering::Release);
     }
@@ -267,35 +278,40 @@ pub(crate) fn close_brick(number: u32) -> Option<ev3_driver::Result<()>> {
 
 /// Another number than before, if other files may be in use.
 #[inline]
-pub(crate) fn files_number() -> u32 {
-    current().files_number.load(Ordering::Acquire)
+pub(crate) fn files_number() -> u64 {
+    u64::from(NUMBER.get()) << 32 | u64::from(FILES.load(Ordering::Acquire))
+}
+
+/// Whether [`files_number`] says so: a thread that serves a page has no brick of its own.
+pub(crate) fn has_files_number() -> bool {
+    NUMBER.get() != NOBODY
 }
 
 /// The devices of the tree in use.
 pub(crate) fn devices() -> Arc<Registry> {
-    current().devices()
+    with_current(Brick::devices)
 }
 
 /// The drive of a robot in the tree in use. A tree has one drive: another robot
 /// continues from its pose.
 pub(crate) fn drive(robot: &Robot) -> Arc<Drive> {
-    let drive = {
-        let files = current().files();
+    let drive = with_current(|brick| {
+        let files = brick.files();
         let InTree { drive, devices } = &files.tree;
         Arc::clone(drive.get_or_init(|| Drive::new(Arc::clone(devices), robot)))
-    };
+    });
     drive.set_robot(robot);
     drive
 }
 
 /// The drive of the tree in use, if it has one.
 pub(crate) fn known_drive() -> Option<Arc<Drive>> {
-    current().files().tree.drive.get().cloned()
+    with_current(|brick| brick.files().tree.drive.get().cloned())
 }
 
 /// The devices of the tree in use, if it is settled which one that is.
 pub(crate) fn chosen_devices() -> Option<Arc<Registry>> {
-    current().chosen_devices()
+    with_current(Brick::chosen_devices)
 }
 
 /// Stops the motors of all bricks that the program started, where nobody hears what fails.
@@ -329,7 +345,7 @@ pub(crate) fn watch_signals() -> io::Result<()> {
 /// Keeps the tree in use.
 pub(crate) fn chosen() {
     let _ = watch_signals(); // else no motor starts
-    current().change_files().is_tree_chosen = true;
+    with_current(|brick| brick.change_files().is_tree_chosen = true);
 }
 
 /// Uses another tree from now on. This stops the motors that were started in the old
@@ -337,11 +353,11 @@ pub(crate) fn chosen() {
 pub(crate) fn use_tree(tree: Arc<dyn Sysfs>) -> ev3_driver::Result<()> {
     let _ = watch_signals(); // else no motor starts
     let tree = InTree::new(tree);
-    let before = {
-        let mut files = current().change_files();
+    let before = with_current(|brick| {
+        let mut files = brick.change_files();
         files.is_tree_chosen = true;
         std::mem::replace(&mut files.tree, tree)
-    };
+    });
     watched().begin_film();
     motor::stop_started(&before.devices)
 }
@@ -363,12 +379,14 @@ pub(crate) struct Selected {
 /// The directories that the program has selected.
 #[cfg(feature = "sim")]
 pub(crate) fn selected() -> Selected {
-    let files = current().files();
     let root = |root: &std::path::Path| root.to_owned();
-    Selected {
-        tree: files.is_tree_chosen.then(|| root(files.tree.devices.tree().root())),
-        dev: files.is_dev_chosen.then(|| root(files.dev.root())),
-    }
+    with_current(|brick| {
+        let files = brick.files();
+        Selected {
+            tree: files.is_tree_chosen.then(|| root(files.tree.devices.tree().root())),
+            dev: files.is_dev_chosen.then(|| root(files.dev.root())),
+        }
+    })
 }
 
 /// Uses these directories again. If the program had selected none, the next use of a
@@ -378,9 +396,11 @@ pub(crate) fn select(Selected { tree, dev }: Selected) -> ev3_driver::Result<()>
     let (is_tree_chosen, is_dev_chosen) = (tree.is_some(), dev.is_some());
     use_dev_files(dev.unwrap_or_else(|| KERNEL_DEV.into()));
     let used = use_files(tree.unwrap_or_else(|| KERNEL.into()));
-    let mut files = current().change_files();
-    files.is_tree_chosen = is_tree_chosen;
-    files.is_dev_chosen = is_dev_chosen;
+    with_current(|brick| {
+        let mut files = brick.change_files();
+        files.is_tree_chosen = is_tree_chosen;
+        files.is_dev_chosen = is_dev_chosen;
+    });
     used
 }
 
@@ -392,21 +412,21 @@ pub(crate) fn use_default_files() -> ev3_driver::Result<()> {
 
 /// The device files in use.
 pub(crate) fn dev() -> Arc<dyn Devfs> {
-    Arc::clone(&current().files().dev)
+    with_current(|brick| Arc::clone(&brick.files().dev))
 }
 
 /// Whether it is settled which device files are in use.
 pub(crate) fn is_dev_chosen() -> bool {
-    current().files().is_dev_chosen
+    with_current(|brick| brick.files().is_dev_chosen)
 }
 
 /// Uses other device files from now on.
 pub(crate) fn use_dev(dev: Arc<dyn Devfs>) {
-    let _before = {
-        let mut files = current().change_files();
+    let _before = with_current(|brick| {
+        let mut files = brick.change_files();
         files.is_dev_chosen = true;
         std::mem::replace(&mut files.dev, dev)
-    };
+    });
 }
 
 /// Uses the device files below a directory from now on.
@@ -421,11 +441,11 @@ pub(crate) fn use_default_dev() {
 }
 
 /// The sounds that this program makes.
-pub(crate) fn sound() -> &'static Sound {
-    &current().sound
+pub(crate) fn sound() -> Arc<Sound> {
+    with_current(|brick| Arc::clone(&brick.sound))
 }
 
 /// The picture that this program has drawn.
 pub(crate) fn with_frame<R>(act: impl FnOnce(&mut Frame) -> R) -> R {
-    act(locked(&current().frame).get_or_insert_default())
+    with_current(|brick| act(locked(&brick.frame).get_or_insert_default()))
 }

@@ -4,6 +4,7 @@
 
 :- use_module('../support/simulation').
 :- use_module('../support/cases').
+:- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/drive)).
 
 % ---------------- SCHEDULES
@@ -318,6 +319,8 @@ hot(touch(in5, 1)).
 hot(catch(motor_run(_, 20), _, true)).
 hot(wait(0.001)).
 hot(sim_snapshot(_)).
+hot(with_sim(room, true)).
+hot(( brick_open(guest, sim), with_brick(guest, volume(_)), brick_close(guest) )).
 
 % More than 10 bytes a call are left behind, beyond 200 kB that Prolog takes for itself. What
 % leaks does so each time; the collector of atoms may be late once.

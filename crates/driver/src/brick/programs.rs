@@ -103,18 +103,18 @@ impl Drop for Started {
 }
 
 /// Programs that somebody waits for.
-pub(crate) struct Running<'a> {
-    programs: &'a Programs,
+pub(crate) struct Running {
+    programs: Arc<Programs>,
     number: u32,
 }
 
-impl Finds for Running<'_> {
+impl Finds for Running {
     fn find(&mut self) -> Result<bool> {
         Ok(self.programs.are_over(self.number)?.is_some())
     }
 }
 
-impl Drop for Running<'_> {
+impl Drop for Running {
     fn drop(&mut self) {
         locked(&self.programs.running).retain(|(other, _)| *other != self.number);
     }
@@ -131,11 +131,11 @@ impl Programs {
     /// Starts programs, in the order of the pipe between them, and waits until all have ended, by
     /// themselves or by [`end`](Self::end). However it is left, they have.
     pub(crate) fn run<const N: usize>(
-        &self,
+        self: &Arc<Self>,
         dev: &Arc<dyn Devfs>,
         start: impl FnOnce() -> Result<[Started; N]>,
-    ) -> Result<Slices<UntilFound<Running<'_>>>> {
-        let running = Running { programs: self, number: self.begin(start)? };
+    ) -> Result<Slices<UntilFound<Running>>> {
+        let running = Running { programs: Arc::clone(self), number: self.begin(start)? };
         Ok(UntilFound::new(dev, running))
     }
 
@@ -210,7 +210,7 @@ mod tests {
 
     #[test]
     fn what_is_just_being_started_is_ended() {
-        let programs = &Programs::default();
+        let programs = &Arc::<Programs>::default();
         let begun = Instant::now();
         std::thread::scope(|scope| {
             let (starting, has_started) = channel();

@@ -51,7 +51,7 @@ pub struct Sound {
     /// The tone generators that are on.
     on: Mutex<Vec<PathBuf>>,
     /// The programs that play.
-    programs: Programs,
+    programs: Arc<Programs>,
     /// A sound that plays while nobody waits for it holds this, too.
     in_background: Mutex<Arc<()>>,
     /// Whether the simulated speaker speaks in the background.
@@ -63,15 +63,15 @@ impl Sound {
     /// speaker. The speaker is silent afterwards, also when the wait is left.
     /// Errors: the kernel's, as EACCES for a user who is not in the group `input`.
     pub fn play_tones(
-        &self,
+        self: &Arc<Self>,
         dev: &Arc<dyn Devfs>,
         tones: Vec<Tone>,
-    ) -> Result<Option<AnyWait<'_, ()>>> {
+    ) -> Result<Option<AnyWait<'static, ()>>> {
         let Some((stream, path)) = open_first(&**dev, &DEVICES, Access::Write)? else {
             return Ok(None);
         };
         append(&*stream, &path)?;
-        let generator = Generator { sound: self, stream, path };
+        let generator = Generator { sound: Arc::clone(self), stream, path };
         let (dev, end, tones) = (Arc::clone(dev), dev.now(), tones.into_iter());
         let playing = Playing { generator, dev, tones, end, stops: self.stops() };
         Ok(Some(Slices::new(playing).boxed()))
@@ -80,7 +80,7 @@ impl Sound {
     /// Starts to play tones one after the other, in the place of all other sounds;
     /// `None` if there is no speaker.
     pub fn begin_tones(
-        &'static self,
+        self: &Arc<Self>,
         tree: &dyn Sysfs,
         dev: &dyn Devfs,
         tones: Vec<Tone>,
@@ -92,13 +92,14 @@ impl Sound {
         self.stop(dev)?;
         let (stops, playing) = (self.stops(), Arc::clone(&locked(&self.in_background)));
         let mut tones = tones.into_iter();
+        let sound = Arc::clone(self);
         let mut next = move || {
             let _ = &playing;
-            if self.stops() != stops {
+            if sound.stops() != stops {
                 return Ok(None);
             }
             let tone = tones.next();
-            self.set_tone(&*stream, &path, tone.map_or(0, |tone| tone.hertz))?;
+            sound.set_tone(&*stream, &path, tone.map_or(0, |tone| tone.hertz))?;
             Ok(tone.map(|tone| tone.lasts))
         };
         if let Some(lasts) = next()? {
@@ -127,7 +128,7 @@ impl Sound {
 
     /// Says a text, and waits until it is said.
     /// Errors: [`Error::NoProgram`] without espeak or aplay, [`Error::Program`].
-    pub fn say(&self, dev: &Arc<dyn Devfs>, text: &str) -> Result<AnyWait<'_, ()>> {
+    pub fn say(self: &Arc<Self>, dev: &Arc<dyn Devfs>, text: &str) -> Result<AnyWait<'static, ()>> {
         match dev.speaker() {
             Some(speaker) => Ok(self.let_speak(dev, || speaker.say(text))),
             None => Ok(self.programs.run(dev, || speaking(text))?.boxed()),
@@ -137,7 +138,7 @@ impl Sound {
     /// Starts to say a text, in the place of all other sounds.
     /// Errors: as [`say`](Self::say), if a program cannot be started.
     pub fn begin_saying(
-        &'static self,
+        self: &Arc<Self>,
         tree: &dyn Sysfs,
         dev: &dyn Devfs,
         text: &str,
@@ -151,7 +152,11 @@ impl Sound {
 
     /// Plays a recording, a WAV file, and waits until it is over.
     /// Errors: as [`say`](Self::say); [`Error::Open`], [`Error::Format`] for what is no WAV file.
-    pub fn play(&self, dev: &Arc<dyn Devfs>, path: &Path) -> Result<AnyWait<'_, ()>> {
+    pub fn play(
+        self: &Arc<Self>,
+        dev: &Arc<dyn Devfs>,
+        path: &Path,
+    ) -> Result<AnyWait<'static, ()>> {
         let lasts = length_of(path)?;
         let Some(speaker) = dev.speaker() else {
             return Ok(self.programs.run(dev, || playing(path))?.boxed());
@@ -166,7 +171,7 @@ impl Sound {
     /// Starts to play a recording, in the place of all other sounds.
     /// Errors: as [`play`](Self::play), if the program cannot be started.
     pub fn begin_playing(
-        &'static self,
+        self: &Arc<Self>,
         tree: &dyn Sysfs,
         dev: &dyn Devfs,
         path: &Path,
@@ -182,13 +187,14 @@ impl Sound {
         }
     }
 
-    fn begin_speaking(&'static self, tree: &dyn Sysfs, lasts: Duration) -> Result<()> {
+    fn begin_speaking(self: &Arc<Self>, tree: &dyn Sysfs, lasts: Duration) -> Result<()> {
         let (stops, playing) = (self.stops(), Arc::clone(&locked(&self.in_background)));
         self.speaks.store(true, Ordering::SeqCst);
+        let sound = Arc::clone(self);
         let end = move || {
             let _ = &playing;
-            if self.stops() == stops {
-                self.speaks.store(false, Ordering::SeqCst);
+            if sound.stops() == stops {
+                sound.speaks.store(false, Ordering::SeqCst);
             }
             None
         };
@@ -198,16 +204,21 @@ impl Sound {
     /// Waits until no sound plays in the background.
     ///
     /// The errors are those of a program that played.
-    pub fn until_silent(&self, dev: &Arc<dyn Devfs>) -> AnyWait<'_, ()> {
-        UntilFound::new(dev, Background(self)).boxed()
+    pub fn until_silent(self: &Arc<Self>, dev: &Arc<dyn Devfs>) -> AnyWait<'static, ()> {
+        UntilFound::new(dev, Background(Arc::clone(self))).boxed()
     }
 
     /// `start` returns how long it speaks.
-    fn let_speak(&self, dev: &Arc<dyn Devfs>, start: impl FnOnce() -> Duration) -> AnyWait<'_, ()> {
+    fn let_speak(
+        self: &Arc<Self>,
+        dev: &Arc<dyn Devfs>,
+        start: impl FnOnce() -> Duration,
+    ) -> AnyWait<'static, ()> {
         // Before it starts: a stop from then on is one of it.
         let stops = self.stops();
         let end = start().saturating_add(dev.now());
-        let speaking = Speaking { sound: self, dev: Arc::clone(dev), stops, end, is_over: false };
+        let (sound, dev) = (Arc::clone(self), Arc::clone(dev));
+        let speaking = Speaking { sound, dev, stops, end, is_over: false };
         Slices::new(speaking).boxed()
     }
 
@@ -295,8 +306,8 @@ fn controls() -> Result<Vec<(&'static str, u8)>> {
 }
 
 /// Tones that play one after the other.
-struct Playing<'a> {
-    generator: Generator<'a>,
+struct Playing {
+    generator: Generator,
     dev: Arc<dyn Devfs>,
     tones: std::vec::IntoIter<Tone>,
     /// When the tone that plays ends.
@@ -304,7 +315,7 @@ struct Playing<'a> {
     stops: u32,
 }
 
-impl Wait for Playing<'_> {
+impl Wait for Playing {
     type End = ();
 
     fn look(&mut self) -> Result<Look<()>> {
@@ -328,15 +339,15 @@ impl Wait for Playing<'_> {
 }
 
 /// The simulated speaker speaks.
-struct Speaking<'a> {
-    sound: &'a Sound,
+struct Speaking {
+    sound: Arc<Sound>,
     dev: Arc<dyn Devfs>,
     stops: u32,
     end: Duration,
     is_over: bool,
 }
 
-impl Wait for Speaking<'_> {
+impl Wait for Speaking {
     type End = ();
 
     fn look(&mut self) -> Result<Look<()>> {
@@ -353,7 +364,7 @@ impl Wait for Speaking<'_> {
     }
 }
 
-impl Drop for Speaking<'_> {
+impl Drop for Speaking {
     fn drop(&mut self) {
         if let Some(speaker) = self.dev.speaker().filter(|_| !self.is_over) {
             speaker.silence();
@@ -362,9 +373,9 @@ impl Drop for Speaking<'_> {
 }
 
 /// Sounds that nobody waited for.
-struct Background<'a>(&'a Sound);
+struct Background(Arc<Sound>);
 
-impl Finds for Background<'_> {
+impl Finds for Background {
     fn find(&mut self) -> Result<bool> {
         let is_over = Arc::strong_count(&locked(&self.0.in_background)) == 1;
         Ok(is_over && self.0.programs.are_all_over()?.is_some())
@@ -372,19 +383,19 @@ impl Finds for Background<'_> {
 }
 
 /// A tone generator, which is off at the end.
-struct Generator<'a> {
-    sound: &'a Sound,
+struct Generator {
+    sound: Arc<Sound>,
     stream: Box<dyn Stream>,
     path: PathBuf,
 }
 
-impl Generator<'_> {
+impl Generator {
     fn set(&self, hertz: u32) -> Result<()> {
         self.sound.set_tone(&*self.stream, &self.path, hertz)
     }
 }
 
-impl Drop for Generator<'_> {
+impl Drop for Generator {
     fn drop(&mut self) {
         // After an error: the first error is the one reported.
         let _ = self.set(0);

@@ -96,7 +96,7 @@ fn a_tone_ends_however_it_is_left() {
     let directory = directory();
     let path = directory.path().join(SOUND);
     let dev: Arc<dyn Devfs> = Arc::new(DevfsDir::new(directory.path()));
-    let sound = Sound::default();
+    let sound = Arc::<Sound>::default();
     let tones = || vec![Tone { hertz: 440, lasts: Duration::from_secs(1000) }];
     assert!(sound.play_tones(&dev, tones()).unwrap().is_none(), "no device");
     fs::write(&path, "").unwrap();
