@@ -92,9 +92,11 @@ processor as with many.
 %   @error domain_error(sim_batch_option, Option)
 %   @error the errors of sim_start/2 for its options
 %   @error existence_error(library, unix) if there is no fork/1
-%   @error existence_error(redis_server, Address)
+%   @error existence_error(redis_server, Address) if it is not there at first
 %   @error existence_error(library, redis) in a Prolog without it
-%   @error io_error(Operation, Stream) if that server goes away
+%
+%   If that server goes away, this waits until it is there again, and then has
+%   the runs made that are not over.
 
 sim_batch(File, Test, Seeds, Scores) :-
     sim_batch(File, Test, Seeds, Scores, []).

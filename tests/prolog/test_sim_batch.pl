@@ -174,6 +174,16 @@ no_run_is_left(Port) :-
         eventually(( redis(Redis, xlen('ev3dev:runs'), 0),
                      \+ redis(Redis, keys('ev3dev:batch:*'), [_|_]) ))).
 
+% The test is the worker: it reads the batch of the only key, and says a score.
+scored(Redis, Runs, Number) :-
+    eventually(( redis(Redis, keys('ev3dev:batch:*'), [Key]),
+                 redis(Redis, xlen('ev3dev:runs'), Runs) )),
+    atomic_list_concat([_, _, Batch], :, Key),
+    atomic_list_concat([ev3dev, scores, Batch], :, Scores),
+    format(string(Done), 'done(~d,~d,ok)', [Number, Number]),
+    redis(Redis, rpush(Scores, Done), _),
+    eventually(redis(Redis, llen(Scores), 0)).
+
 as_here(File, Port, Test, Same) :-
     scores(File, Test, [1, 2, 3], Here),
     scores(File, Test, [1, 2, 3], [redis(localhost:Port)], There),
@@ -225,6 +235,17 @@ test(a_worker_waits_for_a_server_that_went_away, Score == ok) :-
             ( scores(File, prints, [1], [redis(localhost:Port)], [1-ok]),
               with_server_again(Port, scores(File, prints, [1], [redis(localhost:Port)],
                                              [1-Score])) )))).
+test(a_batch_goes_on_when_the_server_came_back,
+     [ setup(asserta((user:message_hook(ev3dev(redis_lost(_)), _, _)), Told)),
+       cleanup(erase(Told)), true(Scores == [1-ok, 2-ok]) ]) :-
+    with_program(File,
+        with_redis_server(Port,
+            ( thread_create(( scores(File, prints, [1, 2], [redis(localhost:Port)], Found),
+                              thread_exit(Found) ), Thread, []),
+              with_client(Port, Redis, scored(Redis, 2, 1)),
+              with_server_again(Port,
+                  ( with_client(Port, Again, scored(Again, 1, 2)),
+                    thread_join(Thread, exited(Scores)) )) ))).
 test(what_is_left_before_its_end_is_dropped) :-
     with_program(File,
         with_redis_server(Port,

@@ -18,7 +18,9 @@
 
 :- fields(program(batch, pool, begin, limits, folder)).
 
-:- meta_predicate redis_batch(+, +, +, 2, -).
+:- meta_predicate
+    redis_batch(+, +, +, 2, -),
+    there_again(+, -, 0).
 
 /** <module> Runs of sim_batch/5 on several machines
 
@@ -56,31 +58,67 @@ abandoned(5000).
 redis_batch(Address, program(File, Test, World, Options, Limits), Seeds,
             Report, Done) :-
     read_file_to_string(File, Text, [encoding(utf8)]),
-    with_redis(Address, Redis,
-        ( ask(Redis, incr('ev3dev:batches'), Batch),
-          batch_key(batch, Batch, Key),
-          batch_key(scores, Batch, Scores),
-          setup_call_cleanup(
-              keep(Redis, Key,
-                   program(File, Text, Test, World, Options, Limits)),
-              ( handed_out(Seeds, 1, Redis, Batch),
-                length(Seeds, Count),
-                get_time(Now),
-                collected(Redis, Scores, Count, Report, no_worker(Now),
-                          [], Done) ),
-              forgotten(Address, [Key, Scores])) )).
+    with_redis(Address, Redis, new_batch(Redis, Batch)),
+    made(Batch, Address, program(File, Text, Test, World, Options, Limits),
+         Seeds, Report, [], Done).
+
+new_batch(Redis, Batch) :-
+    ask(Redis, incr('ev3dev:batches'), Batch).
+
+%   Done0 is what is done already. If the server goes away, the next batch
+%   has the rest: a server may come back with what it had, or empty.
+
+made(Batch, Address, Program, Seeds, Report, Done0, Done) :-
+    batch_key(batch, Batch, Key),
+    batch_key(scores, Batch, Scores),
+    length(Seeds, Count),
+    call_cleanup(
+        ( catch(with_redis(Address, Redis,
+                    ( keep(Redis, Key, Program),
+                      handed_out(Seeds, 1, Done0, Redis, Batch),
+                      get_time(Now),
+                      collected(Redis, Scores, Count, Report,
+                                no_worker(Now), Done0, Done1) )),
+                Error,
+                ( must_be_lost(Error),
+                  Done1 = Done0 )),
+          (   length(Done1, Count)
+          ->  Next = none
+          ;   there_again(Address, Again, new_batch(Again, Next))
+          ) ),
+        forgotten(Address, [Key, Scores])),
+    (   Next == none
+    ->  Done = Done1
+    ;   made(Next, Address, Program, Seeds, Report, Done1, Done)
+    ).
+
+must_be_lost(Error) :-
+    (   connection_lost(Error)
+    ->  true
+    ;   throw(Error)
+    ).
+
+there_again(Address, Redis, Goal) :-
+    print_message(warning, ev3dev(redis_lost(Address))),
+    repeat,
+    sleep(2),
+    catch(with_redis(Address, Redis, Goal), error(_, _), fail),
+    !.
 
 keep(Redis, Key, Term) :-
     kept(Seconds),
     format(string(Text), '~k', [Term]),
     ask(Redis, set(Key, Text, ex, Seconds), _).
 
-handed_out([], _, _, _).
-handed_out([Seed|Seeds], Number, Redis, Batch) :-
-    ask(Redis, xadd('ev3dev:runs', *, batch, Batch, number, Number,
-                    seed, Seed), _),
+handed_out([], _, _, _, _).
+handed_out([Seed|Seeds], Number, Done, Redis, Batch) :-
+    (   memberchk(done(Number, _, _), Done)
+    ->  true
+    ;   ask(Redis, xadd('ev3dev:runs', *, batch, Batch, number, Number,
+                        seed, Seed), _)
+    ),
     Next is Number+1,
-    handed_out(Seeds, Next, Redis, Batch).
+    handed_out(Seeds, Next, Done, Redis, Batch).
 
 %   Workers drop the runs of a batch that is forgotten. An interrupt may have
 %   left an answer half read, so this takes a connection of its own.
@@ -90,22 +128,36 @@ forgotten(Address, Keys) :-
                      forall(member(Key, Keys), ask(Redis, del(Key), _))),
           error(_, _), true).
 
-%   A blocking command would be deaf to signals.
+%   Ends when all is done, or the server has gone.
 
-collected(Redis, Scores, Count, Report, Wait, Done0, Done) :-
-    length(Done0, Over),
-    (   Over >= Count
+collected(Redis, Scores, Count, Report, Wait0, Done0, Done) :-
+    (   length(Done0, Count)
     ->  Done = Done0
-    ;   ask(Redis, lpop(Scores), Text)
-    ->  term_to_atom(Answer, Text),
-        added(Answer, Done0, Done1),
-        call(Report, Done0, Done1),
-        collected(Redis, Scores, Count, Report, none, Done1, Done)
-    ;   sleep(0.05),
-        nobody_works(Wait, Redis, Wait1),
-        collected(Redis, Scores, Count, Report, Wait1, Done0, Done)
+    ;   catch(looked(Redis, Scores, Wait0, Wait, Answer), Error, true),
+        (   nonvar(Error)
+        ->  must_be_lost(Error),
+            Done = Done0
+        ;   added(Answer, Done0, Done1),
+            (   Done1 == Done0
+            ->  true
+            ;   call(Report, Done0, Done1)
+            ),
+            collected(Redis, Scores, Count, Report, Wait, Done1, Done)
+        )
     ).
 
+%   A blocking command would be deaf to signals.
+
+looked(Redis, Scores, Wait0, Wait, Answer) :-
+    (   ask(Redis, lpop(Scores), Text)
+    ->  term_to_atom(Answer, Text),
+        Wait = none
+    ;   sleep(0.05),
+        nobody_works(Wait0, Redis, Wait),
+        Answer = none
+    ).
+
+added(none, Done, Done).
 added(done(Number, Seed, Score), Done0, Done) :-
     (   memberchk(done(Number, _, _), Done0)
     ->  Done = Done0
@@ -137,17 +189,14 @@ redis_work(Address, Workers) :-
     gethostname(Host),
     current_prolog_flag(pid, Pid),
     atomic_list_concat([Host, -, Pid], Me),
+    with_redis(Address, _, true),
     redis_work_(Address, work(Me, Workers)).
 
 redis_work_(Address, Work) :-
     repeat,
     catch(with_redis(Address, Redis, works(Redis, Work)), Error, true),
     (   connection_lost(Error)
-    ->  print_message(warning, ev3dev(redis_lost(Address))),
-        repeat,
-        sleep(2),
-        catch(with_redis(Address, _, true), error(_, _), fail),
-        !,
+    ->  there_again(Address, _, true),
         redis_work_(Address, Work)
     ;   !,
         throw(Error)

@@ -85,7 +85,8 @@ of_redis(Goal) :-
 
 %!  connection_lost(@Error) is semidet.
 %
-%   True if Error is that of a connection that is no more.
+%   True if Error is that of a connection that is no more, or of a server that
+%   is not there, or reads what it had.
 
 connection_lost(Error) :-
     nonvar(Error),
@@ -93,5 +94,7 @@ connection_lost(Error) :-
     (   Formal = io_error(_, _)
     ;   Formal = socket_error(_, _)
     ;   Formal = syntax_error(unexpected_eof)
+    ;   Formal = existence_error(redis_server, _)
+    ;   Formal = redis_error(loading, _)
     ),
     !.
