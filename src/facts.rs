@@ -4,7 +4,7 @@ use crate::glue::error::{wrong_because, wrong_type};
 use crate::glue::places::places;
 use crate::glue::terms::Ask as _;
 use ev3_sim::facts::{Fact, Kind, Subject, Value};
-use ev3_sim::{Drawing, Echo, Hull, Part, SpecError, check_bounds};
+use ev3_sim::{Drawing, Echo, Hull, Part, SpecError, Traits, check_bounds};
 use std::str::FromStr;
 use swipl::prelude::*;
 
@@ -109,6 +109,7 @@ fn value<'a, C: QueryableContextType>(
         Kind::Places => Value::Places(places(call, term)?),
         Kind::Rows => Value::Rows(drawing(call, term)?.0),
         Kind::Hull => Value::Hull(hull(call, term)?),
+        Kind::Traits => Value::Traits(traits(call, term)?),
         Kind::WheelOptions => wheel_options(call, term)?,
         Kind::MotorOptions => Value::MotorOptions(stops(call, term)?),
         Kind::EchoOptions => Value::EchoOptions(echo(call, term)?),
@@ -175,6 +176,32 @@ pub(crate) fn remote_buttons<'a, C: QueryableContextType>(
         _ => wrong_because(call, "ir_button", term, ""),
     };
     call.list(term)?.iter().map(button).collect()
+}
+
+/// A list of `mass(Kg)`, `friction(Share)`, `height(Cm)`, `rolls(Bool)`, `bounces(Share)`,
+/// `color(Color)` and `name(Name)`.
+fn traits<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    options: &Term<'a>,
+) -> PrologResult<Traits> {
+    let mut traits = Traits::default();
+    for option in call.list(options)? {
+        let (name, values) = call.compound(&option)?.unwrap_or_default();
+        let [value] = &*values else {
+            return wrong_because(call, "thing_option", &option, "");
+        };
+        match &*name {
+            "mass" => traits.mass = Some(call.float(value)?),
+            "friction" => traits.friction = Some(call.float(value)?),
+            "height" => traits.height = Some(call.float(value)?),
+            "bounces" => traits.bounces = Some(call.float(value)?),
+            "rolls" => traits.rolls = boolean(call, value)?,
+            "color" => traits.color = Some(named(call, "color", value)?),
+            "name" => traits.name = Some(call.text(value)?.into()),
+            _ => return wrong_because(call, "thing_option", &option, ""),
+        }
+    }
+    Ok(traits)
 }
 
 /// A list of `inverted(Bool)` and `slip(Share)`.

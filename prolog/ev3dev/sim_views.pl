@@ -2,6 +2,8 @@
           [ sim_pose/3,                 % -X, -Y, -Heading
             sim_where/0,
             sim_collisions/1,           % -Collisions
+            sim_thing/4,                % ?Name, -X, -Y, -Heading
+            sim_things/1,               % -Things
             sim_trace/1,                % -Trace
             sim_svg/1,                  % +File
             sim_mount/1,                % +Directory
@@ -15,7 +17,7 @@
 :- use_module(private/files/directory, [directory_path/2, write_file/2]).
 :- use_module(private/native/native,
               [ sim_collisions_/1, sim_mount_/2, sim_pose_/3, sim_svg_/1,
-                sim_trace_/1, sim_unmount_/0 ]).
+                sim_things_/1, sim_trace_/1, sim_unmount_/0 ]).
 
 /** <module> Views of the simulation
 
@@ -50,6 +52,22 @@ sim_where :-
 
 sim_collisions(Collisions) :-
     sim_collisions_(Collisions).
+
+%!  sim_thing(?Name, -X, -Y, -Heading) is nondet.
+%!  sim_things(-Things) is semidet.
+%
+%   True if the thing called Name, which robots can push, is at X, Y, with its
+%   Heading; Things is the list of `thing(Name, X, Y, Heading)` of all of
+%   them. A thing is a box or circle with a mass, see docs/worlds.md. A thing
+%   without a name has the number that sim_add/2 answers. Fails if there is no
+%   such thing.
+
+sim_thing(Name, X, Y, Heading) :-
+    sim_things_(Things),
+    member(thing(Name, X, Y, Heading), Things).
+
+sim_things(Things) :-
+    sim_things_(Things).
 
 %!  sim_trace(-Trace) is semidet.
 %

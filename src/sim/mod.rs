@@ -322,6 +322,23 @@ natives! {
         collisions.unify(terms.as_slice())
     }
 
+    /// sim_things_(-Things): a list of thing(Name, X, Y, Heading).
+    semidet fn "sim_things_"(context, things) {
+        let simulation = simulation(context)?;
+        let machine = simulation.machine();
+        let terms = machine.things().iter().map(|thing| {
+            let (pose, item) = (thing.pose(), thing.item());
+            let name = context.new_term_ref();
+            match item.traits().and_then(|traits| traits.name.as_deref()) {
+                Some(given) => unify_atom(&name, given)?,
+                None => name.unify(i64::from(thing.id().0))?,
+            }
+            term! {context: thing(#&name, #pose.x, #pose.y, #pose.heading)}
+        });
+        let terms = terms.collect::<PrologResult<Vec<_>>>()?;
+        things.unify(terms.as_slice())
+    }
+
     /// sim_trace_(-Trace): a list of at(Time, Event).
     semidet fn "sim_trace_"(context, trace) {
         let seen = simulation(context)?.machine().trace().clone();

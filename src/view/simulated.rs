@@ -209,7 +209,7 @@ fn world_of(machine: &Machine) -> World {
         temperature,
         loudness,
         start: parts(machine.start()),
-        items: machine.items().iter().map(|(id, item)| item_of(*id, item)).collect(),
+        items: machine.items().map(|(id, item)| item_of(id, &item)).collect(),
     }
 }
 

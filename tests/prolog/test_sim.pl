@@ -153,10 +153,10 @@ test(unknown_fact_with_file_and_line) :-
     says(Message, 'FILE:3:2: '),
     says(Message, 'a world has: wall, box, ').
 test(fact_with_too_many_arguments) :-
-    complaint("circle(0, 0, 1, 2).\n", [], Formal, Message),
-    Formal == domain_error(world_fact, circle(0, 0, 1, 2)),
+    complaint("beacon(0, 0, 1, 2).\n", [], Formal, Message),
+    Formal == domain_error(world_fact, beacon(0, 0, 1, 2)),
     says(Message, 'FILE:1:0: '),
-    says(Message, 'circle has 3 arguments').
+    says(Message, 'beacon has 3 arguments').
 test(robot_fact_in_a_world) :-
     complaint("start(1, 1, 0).\naxle(10).\n", [], Formal, Message),
     Formal == domain_error(world_fact, axle(10)),

@@ -176,3 +176,31 @@ read_bytes(Stream, Bytes) :-
         read_bytes(Stream, Rest)
     ).
 :- end_tests(sim_mount_dev).
+
+:- begin_tests(sim_things).
+test(a_robot_pushes_a_thing) :-
+    with_sim([box(0, 40, 6, 6, 0, [mass(0.05), name(cargo)])],
+             ( set_robot(5.6, 10.6, outB, outC),
+               sim_thing(cargo, 0.0, 40.0, 0.0),
+               go_cm(30, 50),
+               sim_pose(_, Y, _),
+               sim_thing(cargo, X, ThingY, _) )),
+    near(X, 0, 0.01),
+    near(ThingY, Y+11, 1).
+test(things_without_a_name_have_their_number,
+     [X, Y]-Things == [50.0, 20.0]-[]) :-
+    with_sim([],
+             ( sim_add(circle(50, 20, 4, [mass(1), rolls(true)]), Id),
+               sim_things([thing(Id, X, Y, _)]),
+               sim_remove(Id),
+               sim_things(Things) )).
+test(what_stands_fast_is_no_thing, Things == []) :-
+    with_sim([box(50, 50, 6, 6, 0, [name(post), color(red)])],
+             sim_things(Things)).
+test(options_are_checked, error(domain_error(thing_option, weight(1)), _)) :-
+    with_sim([box(50, 50, 6, 6, 0, [weight(1)])], true).
+test(too_light, error(domain_error(possible_geometry, _), _)) :-
+    with_sim([], sim_add(box(50, 50, 6, 6, 0, [mass(0.001)]))).
+test(fails_without_simulation, fail) :-
+    sim_things(_).
+:- end_tests(sim_things).

@@ -37,7 +37,7 @@ fn main() {
     let seconds = std::env::args().nth(1).and_then(|text| text.parse().ok());
     let simulated = Duration::from_secs(seconds.unwrap_or(600));
     let world = WorldSpec {
-        items: vec![Item::Box { pose: Pose::new(110.0, 110.0, 20.0), width: 40.0, depth: 30.0 }],
+        items: vec![Item::boxed(Pose::new(110.0, 110.0, 20.0), 40.0, 30.0)],
         bounds: Some(Bounds { low: [0.0, 0.0], high: [300.0, 240.0] }),
         start: Pose::new(60.0, 50.0, 0.0),
         ..WorldSpec::default()

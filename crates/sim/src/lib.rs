@@ -131,6 +131,7 @@ pub use machine::film::Sample;
 pub use machine::shown::{Shown, ShownMotor, ShownSensor};
 pub use machine::tree::{Entry, FileKind, NodeId, Stat};
 pub use machine::{Machine, Options, Written};
+pub use mechanics::thing::Thing;
 pub use motor::{MOTOR_KINDS, MotorKind};
 pub use noise::{Echo, Noise};
 pub use robot::{MotorMount, RobotSpec, SensorMount, Wheel, Wheels};
@@ -140,5 +141,6 @@ pub use shared::Shared;
 pub use trace::{Action, Collision, Event, Trace};
 pub use world::color::{Color, UnknownColor};
 pub use world::{
-    Cell, Drawing, Drawn, Hull, Item, ItemId, Part, Shape, SpecError, WorldSpec, check_bounds,
+    Cell, Drawing, Drawn, Hull, Item, ItemId, Part, Shape, SpecError, Traits, WorldSpec,
+    check_bounds,
 };

@@ -274,17 +274,17 @@ fn robots_do_not_start_in_each_other() {
 fn what_a_hand_changes_is_there_for_all() {
     let places = [Pose::default(), Pose::new(0.0, 200.0, 180.0)];
     let crowd = pair(&default_robot(), &default_robot(), places);
-    let circle = Item::Circle { center: [0.0, 100.0], radius: 5.0 };
+    let circle = Item::circle([0.0, 100.0], 5.0);
     crowd[0].change_world(|machine| machine.add_item(circle)).unwrap();
     crowd[0].step(Duration::from_millis(200));
     assert!((800..1000).contains(&sonar(&crowd[1])), "{}", sonar(&crowd[1]));
-    let on_top = Item::Circle { center: [0.0, 200.0], radius: 5.0 };
+    let on_top = Item::circle([0.0, 200.0], 5.0);
     assert!(crowd[0].change_world(|machine| machine.add_item(on_top)).is_err());
     let there = Pose::new(0.0, 200.0, 0.0);
     assert!(crowd[0].change_world(|machine| machine.place(there)).is_err());
     crowd[0].change_world(|machine| machine.place(Pose::new(0.0, 300.0, 0.0))).unwrap();
     crowd[1].step(Duration::from_millis(200));
-    assert_eq!(crowd[0].machine().items().len(), 1);
+    assert_eq!(crowd[0].machine().items().count(), 1);
 }
 
 #[test]

@@ -2,16 +2,23 @@
 //!
 //! A robot that is alone takes it as if it had the world for itself. Those near each other take it
 //! as pairs (`mechanics::pair`). All see the others where they were after the last tick.
+//!
+//! The things that robots push are shared by all. What moves, and what is near to it, is an
+//! island, which takes the tick together; a robot that has no thing near it does not look at them.
 use crate::machine::Machine;
 use crate::mechanics::pair::{self, Rider};
+use crate::mechanics::thing::Thing;
 use crate::world::obstacle::Obstacle;
-use crate::world::{ItemId, SpecError};
+use crate::world::{Hull, ItemId, SpecError};
+use ev3_motion::Pose;
 use std::sync::Arc;
 use std::time::Duration;
 
 /// Robots whose hulls may come nearer than this in a tick may touch, in cm. The fastest ones move
 /// by 0.4 cm.
 const NEAR: f64 = 2.0;
+/// The same of things, between outlines.
+pub(super) const THING_NEAR: f64 = 1.0;
 
 /// A robot's number among the obstacles: the last ones.
 fn id_of(index: usize) -> ItemId {
@@ -54,45 +61,153 @@ pub(crate) fn step(machines: &mut [&mut Machine], dt: Duration) {
 
 /// The world of one of them has changed.
 pub(crate) fn share_world(machines: &mut [&mut Machine], changed: usize) {
-    let Some(scene) = machines.get(changed).map(|machine| Arc::clone(&machine.scene)) else {
-        return;
-    };
+    let Some(machine) = machines.get(changed) else { return };
+    let (scene, things) = (Arc::clone(&machine.scene), Arc::clone(&machine.things));
     for machine in machines.iter_mut() {
         if !Arc::ptr_eq(&machine.scene, &scene) {
             machine.scene = Arc::clone(&scene);
             machine.body.world_changed();
         }
     }
+    share_things(machines, &things);
     see_each_other(machines);
 }
 
-/// Where they are now.
+/// Where robots and things are now.
 fn see_each_other(machines: &mut [&mut Machine]) {
     let robot = |machine: &&mut Machine| {
         Obstacle::robot(id_of(machine.number), machine.robot.hull, &machine.body.pose)
     };
-    let robots: Arc<Vec<_>> = Arc::new(machines.iter().map(robot).collect());
-    for machine in machines {
-        machine.robots = Arc::clone(&robots);
+    if machines.len() > 1 {
+        let robots: Arc<Vec<_>> = Arc::new(machines.iter().map(robot).collect());
+        for machine in &mut *machines {
+            machine.robots = Arc::clone(&robots);
+        }
+    }
+    let Some((first, others)) = machines.split_first_mut() else { return };
+    first.see_things();
+    for other in others {
+        other.thing_obstacles = Arc::clone(&first.thing_obstacles);
     }
 }
 
-fn advance(machines: &mut [&mut Machine]) {
-    let groups = groups(machines);
-    let mut has_moved = false;
-    for group in 0..machines.len() {
-        let mut members: Vec<_> = (machines.iter_mut().zip(&groups))
-            .filter(|(_, of)| **of == group)
-            .map(|(machine, _)| &mut **machine)
-            .collect();
-        has_moved |= turn(&mut members);
-    }
+/// A tick.
+pub(crate) fn advance(machines: &mut [&mut Machine]) {
+    let has_moved = if machines.iter().all(|machine| machine.has_room()) {
+        let groups = groups(machines);
+        let mut has_moved = false;
+        for group in 0..machines.len() {
+            let mut members: Vec<_> = (machines.iter_mut().zip(&groups))
+                .filter(|(_, of)| **of == group)
+                .map(|(machine, _)| &mut **machine)
+                .collect();
+            has_moved |= turn(&mut members);
+        }
+        has_moved
+    } else {
+        advance_among_things(machines)
+    };
     if has_moved {
         see_each_other(machines);
     }
     for machine in machines {
         machine.end_tick();
     }
+}
+
+/// The same where a thing moves, or a robot is near to one; whether something may have moved.
+fn advance_among_things(machines: &mut [&mut Machine]) -> bool {
+    let mut things = take_things(machines);
+    let scene = Arc::clone(&machines[0].scene);
+    let starts: Vec<_> = machines.iter_mut().map(|machine| machine.begin_tick()).collect();
+    let islands = islands(machines, &things);
+    let (of_robots, of_things) = islands.split_at(machines.len());
+    for (machine, (island, start_us)) in machines.iter_mut().zip(of_robots.iter().zip(&starts)) {
+        if island.is_none() {
+            machine.rest(*start_us);
+        }
+    }
+    let mut has_moved = false;
+    for (island, _) in islands.iter().enumerate().filter(|(place, of)| **of == Some(*place)) {
+        has_moved = true;
+        let is_in = |of: &Option<usize>| *of == Some(island);
+        let (mut members, begun): (Vec<_>, Vec<_>) = (machines.iter_mut().zip(&starts))
+            .zip(of_robots)
+            .filter(|(_, of)| is_in(of))
+            .map(|((machine, start_us), _)| (&mut **machine, *start_us))
+            .unzip();
+        let pushed: Vec<_> = (things.iter_mut().zip(of_things))
+            .filter(|(_, of)| is_in(of))
+            .map(|(thing, _)| thing.rider(&scene))
+            .collect();
+        match &mut members[..] {
+            [alone] if pushed.is_empty() && alone.body.spins.is_none() => {
+                alone.turn_shafts(begun[0]);
+            }
+            members => ride(members, &begun, pushed),
+        }
+    }
+    share_things(machines, &Arc::new(things));
+    has_moved
+}
+
+/// The things of this world, for nobody else meanwhile.
+fn take_things(machines: &mut [&mut Machine]) -> Vec<Thing> {
+    let mut all = machines.iter_mut().map(|machine| std::mem::take(&mut machine.things));
+    let first = all.next().unwrap_or_default();
+    all.for_each(drop);
+    Arc::unwrap_or_clone(first)
+}
+
+/// All have these things, and know how far they may go until they meet one.
+fn share_things(machines: &mut [&mut Machine], things: &Arc<Vec<Thing>>) {
+    for machine in machines {
+        machine.things = Arc::clone(things);
+        machine.look_for_room();
+    }
+}
+
+/// The island of each robot, then of each thing: the lowest number of those that it is near to,
+/// directly or through others; `None` where nothing moves.
+fn islands(machines: &[&mut Machine], things: &[Thing]) -> Vec<Option<usize>> {
+    let count = machines.len();
+    let groups = groups(machines);
+    let robot = |index: usize| {
+        let Machine { number, robot, body, .. } = &*machines[index];
+        Obstacle::robot(id_of(*number), robot.hull, &body.pose)
+    };
+    let near = |outline: &Obstacle, hull: Hull, pose: &Pose| outline.gap(hull, pose) < THING_NEAR;
+    let mut islands = vec![None; count + things.len()];
+    for start in 0..islands.len() {
+        let is_awake = match start.checked_sub(count) {
+            None => machines[start].body.spins.is_some() || !machines[start].is_at_rest(),
+            Some(thing) => things[thing].is_moving(),
+        };
+        if !is_awake || islands[start].is_some() {
+            continue;
+        }
+        islands[start] = Some(start);
+        let mut open = vec![start];
+        while let Some(here) = open.pop() {
+            let outline =
+                here.checked_sub(count).map_or_else(|| robot(here), |i| things[i].obstacle());
+            for (other, island) in islands.iter_mut().enumerate() {
+                if island.is_some() {
+                    continue;
+                }
+                let is_near = match other.checked_sub(count) {
+                    None if here < count => groups[here] == groups[other],
+                    None => near(&outline, machines[other].robot.hull, &machines[other].body.pose),
+                    Some(thing) => near(&outline, things[thing].hull, &things[thing].body.pose),
+                };
+                if is_near {
+                    *island = Some(start);
+                    open.push(other);
+                }
+            }
+        }
+    }
+    islands
 }
 
 /// The shafts of a group take their tick; whether something may have moved.
@@ -107,18 +222,20 @@ fn turn(machines: &mut [&mut Machine]) -> bool {
     }
     match machines {
         [alone] if !may_spin => alone.turn_shafts(starts[0]),
-        _ => ride(machines, &starts),
+        _ => ride(machines, &starts, Vec::new()),
     }
     true
 }
 
-/// A tick of robots that are near each other, or whose wheels still spin.
-fn ride(machines: &mut [&mut Machine], starts: &[u64]) {
+/// A tick of robots that are near each other or near things, or whose wheels still spin.
+fn ride(machines: &mut [&mut Machine], starts: &[u64], things: Vec<Rider>) {
     let loads: Vec<_> = machines.iter_mut().map(|machine| machine.loaded()).collect();
     let mut riders: Vec<_> = (machines.iter_mut().zip(&loads))
         .map(|(machine, loads)| machine.rider(id_of(machine.number), loads))
+        .chain(things)
         .collect();
     pair::advance(&mut riders);
+    riders.truncate(starts.len());
     let after: Vec<_> = riders.into_iter().map(|Rider { omega, hits, .. }| (omega, hits)).collect();
     for ((machine, (omega, hits)), (loads, start_us)) in
         machines.iter_mut().zip(after).zip(loads.iter().zip(starts))

@@ -20,7 +20,7 @@ impl Machine {
             let name = name.replace('\\', "\\\\").replace('\'', "\\'");
             facts.push(format!("start('{name}', {x}, {y}, {heading})"));
         }
-        facts.extend(scene.items().iter().map(|(_, item)| item.fact()));
+        facts.extend(self.items().map(|(_, item)| item.fact()));
         facts.join(".\n") + ".\n"
     }
 }

@@ -11,10 +11,12 @@ mod files;
 pub(crate) mod film;
 mod panel;
 mod plugs;
+mod room;
 mod samples;
 pub(crate) mod shown;
 mod socket;
 mod svg;
+mod things;
 mod time;
 pub(crate) mod tree;
 
@@ -25,10 +27,12 @@ use crate::brick::remote::{Remote, RemoteButton};
 use crate::brick::screen::Depth;
 use crate::brick::{Battery, Board, Framebuffer, LEDS, Led};
 use crate::machine::film::Film;
+use crate::machine::room::Room;
 use crate::machine::socket::{Plug, Socket};
 use crate::machine::tree::{Hardware, Tree};
 use crate::mechanics::Body;
 use crate::mechanics::shaft::Shaft;
+use crate::mechanics::thing::Thing;
 use crate::noise::Teeth;
 use crate::robot::{RobotSpec, Wheels};
 use crate::sensor::Sensor;
@@ -36,7 +40,7 @@ use crate::ticks::TICK_US;
 use crate::trace::{Collision, Trace};
 use crate::world::obstacle::Obstacle;
 use crate::world::scene::{Others, Scene};
-use crate::world::{Item, ItemId, Part, SpecError, WorldSpec};
+use crate::world::{ItemId, Part, SpecError, WorldSpec};
 use ev3_motion::{OUT_OF_RANGE, Pose};
 use ev3_os::linux::Errno;
 use std::sync::Arc;
@@ -90,6 +94,10 @@ pub struct Machine {
     /// The robots of this world as obstacles, if there are several, and which of them is this one.
     robots: Arc<Vec<Obstacle>>,
     number: usize,
+    /// The things that robots push, those of all robots of this world, and how they are seen.
+    things: Arc<Vec<Thing>>,
+    thing_obstacles: Arc<Vec<Obstacle>>,
+    room: Room,
     panel: Panel,
     /// The touch sensors that a hand holds down, by port.
     held: [bool; Port::ALL.len()],
@@ -158,12 +166,16 @@ impl Machine {
             scene: Arc::new(scene),
             robots: Arc::default(),
             number: 0,
+            things: Arc::default(),
+            thing_obstacles: Arc::default(),
+            room: Room::ENDLESS,
             panel: Panel::new(options.depth),
             held: Default::default(),
             trace: Trace::new(),
             film: None,
         };
         machine.check_free(&world.start)?;
+        machine.take_things()?;
         for mount in &robot.motors {
             machine.sockets[mount.port as usize].plug = Plug::named(&mount.driver, mount.port);
         }
@@ -196,6 +208,7 @@ impl Machine {
         }
         self.check_free(&pose)?;
         self.body.place(pose);
+        self.look_for_room();
         for port in self.robot.wheels.iter().flat_map(Wheels::ports) {
             self.shafts[port.slot()].omega = 0.0;
         }
@@ -229,92 +242,33 @@ impl Machine {
 
     /// The other robots.
     fn others(&self) -> Others<'_> {
+        let things = &self.thing_obstacles;
         match self.robots.split_at_checked(self.number) {
-            Some((before, [_, after @ ..])) => Others { before, after },
-            _ => Others::default(),
+            Some((before, [_, after @ ..])) => Others { before, after, things },
+            _ => Others { things, ..Others::default() },
         }
     }
 
     fn check_free(&self, pose: &Pose) -> Result<(), SpecError> {
         let robot = |is: String| SpecError::new(format!("robot at {}, {}", pose.x, pose.y), is);
-        if self.others().iter().any(|other| other.overlaps(self.robot.hull, pose)) {
+        let mut robots = self.others().robots();
+        if robots.any(|other| other.overlaps(self.robot.hull, pose)) {
             return Err(robot("is inside another robot".to_owned()).in_part(Part::Start));
         }
-        if let Some(id) = self.scene.overlap(self.robot.hull, pose) {
-            let items = self.scene.items();
-            let index = items.iter().position(|(other, _)| *other == id);
-            let (name, part) = match index {
-                Some(index) => (items[index].1.to_string(), Part::Item(index)),
-                None => ("the walls of the bounds".to_owned(), Part::Bounds),
-            };
-            return Err(robot(format!("is inside {name}")).in_part(Part::Start).in_part(part));
+        let mut things = self.thing_obstacles.iter();
+        let thing = things.find(|thing| thing.overlaps(self.robot.hull, pose));
+        let fixed = self.scene.overlap(self.robot.hull, pose);
+        if let Some(id) = fixed.or(thing.map(|thing| thing.id)) {
+            let index = self.scene.items().iter().position(|(other, _)| *other == id);
+            let part = index.map_or(Part::Bounds, Part::Item);
+            let error = robot(format!("is inside {}", self.name_of(id)));
+            return Err(error.in_part(Part::Start).in_part(part));
         }
         if self.scene.bounds.is_some_and(|bounds| !bounds.contain([pose.x, pose.y])) {
             let error = robot("is outside of the world".to_owned());
             return Err(error.in_part(Part::Start).in_part(Part::Bounds));
         }
         Ok(())
-    }
-
-    /// Everything in the world, with the numbers under which it can be removed.
-    pub fn items(&self) -> &[(ItemId, Item)] {
-        self.scene.items()
-    }
-
-    /// Puts something into the world.
-    /// Errors: if the item is impossible, or the robot is where it should stand.
-    pub fn add_item(&mut self, item: Item) -> Result<ItemId, SpecError> {
-        let name = item.to_string();
-        let scene = Arc::make_mut(&mut self.scene);
-        let id = scene.add(item)?;
-        if self.is_at_robot(id) {
-            Arc::make_mut(&mut self.scene).remove(id);
-            return Err(SpecError::new(name, "is where the robot stands"));
-        }
-        self.body.world_changed();
-        self.hand_is_done();
-        Ok(id)
-    }
-
-    /// Whether an item is where a robot stands.
-    fn is_at_robot(&self, id: ItemId) -> bool {
-        self.scene.overlap(self.robot.hull, &self.body.pose) == Some(id)
-            || self.scene.is_at(id, self.others())
-    }
-
-    /// Takes something out of the world; false if there is no such item.
-    pub fn remove_item(&mut self, id: ItemId) -> bool {
-        self.body.world_changed();
-        let was_there = Arc::make_mut(&mut self.scene).remove(id);
-        self.hand_is_done();
-        was_there
-    }
-
-    /// Moves an item to another place, and turns it to a heading if one is given; `false` if there
-    /// is no such item, or it has no single place.
-    /// Errors: if the place is impossible, or the robot is there. Then nothing moves.
-    pub fn move_item(
-        &mut self,
-        id: ItemId,
-        to: [f64; 2],
-        heading: Option<f64>,
-    ) -> Result<bool, SpecError> {
-        let item = self.scene.items().iter().find(|(other, _)| *other == id);
-        let Some(moved) = item.and_then(|(_, item)| item.at(to, heading)) else {
-            return Ok(false);
-        };
-        let name = moved.to_string();
-        let scene = Arc::make_mut(&mut self.scene);
-        let before = scene.replace(id, moved)?;
-        if self.is_at_robot(id) {
-            if let Some(before) = before {
-                Arc::make_mut(&mut self.scene).replace(id, before)?;
-            }
-            return Err(SpecError::new(name, "is where the robot stands"));
-        }
-        self.body.world_changed();
-        self.hand_is_done();
-        Ok(true)
     }
 
     /// Holds down these buttons of a remote control on a channel from 1 to 4, and no others, until

@@ -7,6 +7,7 @@ use crate::brick::screen::{Depth, HEIGHT, WIDTH};
 use crate::machine::Machine;
 use crate::machine::socket::Plug;
 use crate::machine::tree::Hardware;
+use crate::mechanics::thing::Thing;
 use crate::motor::{COUNT_PER_M, Tacho};
 use crate::sense::sight::Sight;
 use crate::sensor::Sensor;
@@ -88,8 +89,12 @@ impl Machine {
         self.panel.drawn
     }
 
-    /// Whether the robot or one of its motors moves.
+    /// Whether the robot, one of its motors or a thing in its world moves.
     pub fn is_moving(&self) -> bool {
+        self.robot_moves() || self.things.iter().any(Thing::is_moving)
+    }
+
+    pub(super) fn robot_moves(&self) -> bool {
         self.body.slip != 0.0
             || self.body.spins.into_iter().flatten().any(|speed| speed != 0.0)
             || self.shafts.iter().any(|shaft| shaft.omega != 0.0)
@@ -113,7 +118,7 @@ impl Machine {
 
     /// The other robots in this world, as things of the same outline.
     pub fn other_robots(&self) -> impl Iterator<Item = (ItemId, Item)> {
-        self.others().iter().map(|robot| (robot.id, robot.outline()))
+        self.others().robots().map(|robot| (robot.id, robot.outline()))
     }
 
     /// Where the robot starts in this world.

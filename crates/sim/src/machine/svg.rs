@@ -34,8 +34,8 @@ impl Machine {
         if let Some(bounds) = &self.scene.bounds {
             svg.bounds(bounds);
         }
-        for (id, item) in self.scene.items() {
-            draw_item(&mut svg, id.0, item);
+        for (id, item) in self.items() {
+            draw_item(&mut svg, id.0, &item);
         }
         for (id, item) in self.other_robots() {
             draw_item(&mut svg, id.0, &item);
@@ -61,7 +61,7 @@ impl Machine {
         let mut frame = Bounds { low: at, high: at };
         frame.include(at, self.robot.hull.reach());
         self.trace.path().for_each(|(_, pose)| frame.include(pose.point(), 0.0));
-        self.scene.items().iter().for_each(|(_, item)| include_item(&mut frame, item));
+        self.items().for_each(|(_, item)| include_item(&mut frame, &item));
         self.other_robots().for_each(|(_, item)| include_item(&mut frame, &item));
         if let Some(bounds) = self.scene.bounds {
             frame.include(bounds.low, 0.0);

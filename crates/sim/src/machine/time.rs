@@ -1,11 +1,12 @@
 //! The passage of time: ticks of 2 ms, each the same however a caller slices his steps.
 use crate::brick::output::{Bridge, Output};
 use crate::brick::port::Port;
-use crate::machine::Machine;
 use crate::machine::socket::Plug;
 use crate::machine::tree::Hardware;
+use crate::machine::{Machine, crowd};
 use crate::mechanics::Load;
 use crate::mechanics::pair::Rider;
+use crate::mechanics::thing::Thing;
 use crate::noise::Source;
 use crate::robot::Wheels;
 use crate::ticks::{JIFFY_TICKS, TICK_US};
@@ -31,7 +32,11 @@ impl Machine {
     pub fn step(&mut self, dt: Duration) {
         self.pass(dt);
         while self.is_behind() {
-            self.advance();
+            if self.has_room() {
+                self.advance();
+            } else {
+                crowd::advance(&mut [self]);
+            }
         }
     }
 
@@ -162,7 +167,7 @@ impl Machine {
     pub(crate) fn is_at_rest(&self) -> bool {
         let undriven =
             |port| matches!(self.bridge(port), Bridge::Float | Bridge::Short | Bridge::Driven(0));
-        !self.is_moving() && OUTPUTS.into_iter().all(undriven)
+        !self.robot_moves() && OUTPUTS.into_iter().all(undriven)
     }
 
     pub(crate) fn rest(&mut self, start_us: u64) {
@@ -211,7 +216,7 @@ impl Machine {
         let mut hits = Vec::new();
         let wheel_loads = [loads[left], loads[right]];
         let hit = |item| hits.push(item);
-        self.body.advance(&mut omega, &wheel_loads, &self.robot, &self.scene, hit);
+        self.body.advance(&mut omega, &wheel_loads, self.robot.hull, &self.scene, hit);
         self.wheels_turned(omega, hits);
     }
 
@@ -221,7 +226,7 @@ impl Machine {
         let omega = slots.map_or([0.0; 2], |slots| slots.map(|slot| self.shafts[slot].omega));
         let loads = slots.map_or([Load::default(); 2], |slots| slots.map(|slot| loads[slot]));
         let Machine { body, robot, scene, .. } = self;
-        Rider { id, body, omega, loads, robot, scene, hits: Vec::new() }
+        Rider { id, body, omega, loads, hull: robot.hull, scene, hits: Vec::new() }
     }
 
     /// The new speeds of the wheels' shafts, and what the robot has run into.
@@ -299,7 +304,7 @@ impl Machine {
         if port.is_output() { self.shafts[port.slot()].angle } else { 0.0 }
     }
 
-    /// Energy of motion of robot and motors, in joules.
+    /// Energy of motion of robot, motors, and the things in its world, in joules.
     pub fn kinetic_energy(&self) -> f64 {
         let (loads, _) = self.loads();
         let wheels = self.robot.wheels.map(|wheels| wheels.ports().map(Port::slot));
@@ -308,7 +313,9 @@ impl Machine {
             self.body.energy(omega, &[loads[left], loads[right]])
         });
         let free = (0..4).filter(|slot| !wheels.is_some_and(|wheels| wheels.contains(slot)));
+        let pushed: f64 = self.things.iter().map(Thing::energy).sum();
         driving
+            + pushed
             + free
                 .map(|slot| loads[slot].inertia * self.shafts[slot].omega.powi(2) / 2.0)
                 .sum::<f64>()

@@ -12,20 +12,27 @@
 //! on a smooth table would spin before the motors stall; here a wall stalls them, as it stalls
 //! those of a heavy robot. Between robots it is their grip that decides who pushes whom: see
 //! `pair`. There the body has speeds of its own, ahead and turning, and the tires tie them to the
-//! shafts as far as they hold.
+//! shafts as far as they hold. A thing that robots push is such a body, too (`thing`): it has no
+//! wheels, and the floor holds it by dry friction (`sole`).
 
+mod limit;
 pub(crate) mod pair;
 pub(crate) mod shaft;
+pub(crate) mod sole;
+pub(crate) mod thing;
+mod warm;
 
 use crate::ItemId;
+use crate::mechanics::limit::{Answer, Limit, SKIN, Speeds, Touch, add, apply, dot};
+use crate::mechanics::sole::{Floor, Sole};
+use crate::mechanics::warm::{Key, Warm};
 use crate::robot::{RobotSpec, Wheel};
 use crate::ticks::TICK_SECONDS;
+use crate::world::Hull;
 use crate::world::obstacle::Contact;
 use crate::world::scene::Scene;
 use ev3_motion::{Pose, Vec2, heading_vector, sin_cos};
 
-/// The hull keeps this far from obstacles, in cm, so that it never quite touches them.
-const SKIN: f64 = 0.02;
 /// Contacts nearer than this take part in the mechanics, in cm.
 const MARGIN: f64 = 1.0;
 /// A contact is over when the hull is this far off again, in cm.
@@ -48,9 +55,6 @@ const PUSHES: usize = 8;
 /// Friction of the tires against slipping sideways, as a share of the robot's weight. Rubber wheels
 /// of robots have 0.5 to 0.9 in pull tests, more at rest than while they slip.
 const TIRE_FRICTION: f64 = 0.6;
-/// Friction between hull and obstacle, as a share of the force between them: plastic on wood or
-/// laminate has 0.2 to 0.4.
-const WALL_FRICTION: f64 = 0.3;
 /// Standard gravity, m/s².
 const GRAVITY: f64 = 9.806_65;
 
@@ -82,76 +86,6 @@ impl Load {
     }
 }
 
-/// Speeds: of the left and the right shaft in rad/s; sideways to the right and ahead in cm/s, and
-/// clockwise in rad/s. As a `gain`, how much each of them adds to a speed that is limited. Where
-/// the wheels roll, the last two follow from the first, and have no gain.
-type Speeds = [f64; 5];
-
-/// How speeds answer an impulse. Only the two shafts act on each other.
-struct Answer {
-    shafts: [[f64; 2]; 2],
-    body: [f64; 3],
-}
-
-impl Answer {
-    fn of(&self, gain: Speeds) -> Speeds {
-        let [left, right] = apply(&self.shafts, [gain[0], gain[1]]);
-        let [aside, ahead, turn] = self.body;
-        [left, right, aside * gain[2], ahead * gain[3], turn * gain[4]]
-    }
-}
-
-/// A limit: the impulse that keeps `gain · speeds` at (or above) `target`.
-struct Limit {
-    gain: Speeds,
-    target: f64,
-    low: f64,
-    high: f64,
-    /// Of a friction, the most that it ever gives.
-    whole: f64,
-    impulse: f64,
-}
-
-impl Limit {
-    /// The impulse that brings a speed to rest, at most this one.
-    fn friction(gain: Speeds, most: f64) -> Limit {
-        Limit { gain, target: 0.0, low: -most, high: most, whole: most, impulse: 0.0 }
-    }
-
-    /// An obstacle at this distance, in cm, which only pushes.
-    fn push(gain: Speeds, gap: f64, seconds: f64) -> Limit {
-        let target = (SKIN - gap).min(0.0) / seconds;
-        Limit { gain, target, low: 0.0, high: f64::INFINITY, whole: f64::INFINITY, impulse: 0.0 }
-    }
-
-    /// Gives the impulse that is missing, and answers by how much that changes the speed.
-    fn apply(&mut self, speeds: &mut Speeds, answer: &Answer) -> f64 {
-        let answer = answer.of(self.gain);
-        let softness = dot(self.gain, answer);
-        let step = self.step(dot(self.gain, *speeds), softness);
-        add(speeds, answer, step);
-        (step * softness).abs()
-    }
-
-    /// The impulse that is missing where the limited speed is this one.
-    fn step(&mut self, speed: f64, softness: f64) -> f64 {
-        if softness < 1e-12 {
-            return 0.0;
-        }
-        let wanted = self.impulse + (self.target - speed) / softness;
-        let impulse = wanted.clamp(self.low, self.high);
-        let step = impulse - self.impulse;
-        self.impulse = impulse;
-        step
-    }
-}
-
-/// An obstacle that pushes, and rubs while it does.
-struct Touch {
-    push: Limit,
-    rub: Limit,
-}
-
 /// A part of a tick: the speeds so far, how they answer, and what limits them.
 struct Step {
     speeds: Speeds,
@@ -161,6 +95,8 @@ struct Step {
 
 /// All limits of a step.
 struct Limits {
+    /// The floor under a thing; a thing has no shafts and no tires.
+    sole: Option<Sole>,
     shafts: [Limit; 2],
     /// The tires against slipping sideways; `None` if nothing makes them slip.
     tires: Option<Limit>,
@@ -181,6 +117,20 @@ impl Limits {
 
     /// Each limit once, obstacles last: they win. Answers the largest change of a speed.
     fn round(&mut self, speeds: &mut Speeds, answer: &Answer) -> f64 {
+        let mut change;
+        if let Some(sole) = &mut self.sole {
+            change = sole.apply(speeds, answer);
+        } else {
+            change = self.wheels(speeds, answer);
+        }
+        for touch in &mut self.touches {
+            change = change.max(touch.round(|limit| limit.apply(speeds, answer)));
+        }
+        change
+    }
+
+    /// The limits of shafts and tires.
+    fn wheels(&mut self, speeds: &mut Speeds, answer: &Answer) -> f64 {
         let mut change: f64 = 0.0;
         for limit in self.shafts.iter_mut().chain(&mut self.tires) {
             change = change.max(limit.apply(speeds, answer));
@@ -195,19 +145,59 @@ impl Limits {
                 change = change.max(grip.apply(speeds, answer));
             }
         }
-        for touch in &mut self.touches {
-            change = change.max(touch.round(|limit| limit.apply(speeds, answer)));
-        }
         change
     }
 }
 
-impl Touch {
-    fn round(&mut self, mut apply: impl FnMut(&mut Limit) -> f64) -> f64 {
-        self.rub.high = WALL_FRICTION * self.push.impulse;
-        self.rub.low = -self.rub.high;
-        let change = apply(&mut self.rub);
-        change.max(apply(&mut self.push))
+impl Limits {
+    /// The limits of shafts, tires and grips, each at its place.
+    fn of_wheels(&mut self) -> impl Iterator<Item = (usize, &mut Limit)> {
+        let grips = self.grips.iter_mut().flatten();
+        let shafts = self.shafts.iter_mut().enumerate();
+        shafts.chain(self.tires.iter_mut().map(|tires| (2, tires))).chain((3..).zip(grips))
+    }
+}
+
+/// The name of a contact with something that stands fast.
+fn of_wall(contact: &Contact) -> Key {
+    Key([contact.id.0, 0, contact.corner])
+}
+
+fn begin_with(limit: &mut Limit, impulse: f64, speeds: &mut Speeds, answer: &Answer) {
+    limit.impulse = impulse.clamp(-limit.whole, limit.whole);
+    add(speeds, answer.of(limit.gain), limit.impulse);
+}
+
+impl Step {
+    /// Begins with the impulses of the body's last step.
+    fn warm_up(&mut self, body: &Body, seconds: f64) {
+        let Step { speeds, answer, limits } = self;
+        if let Some(sole) = &mut limits.sole {
+            sole.give(body.warm.sole, speeds, answer);
+        } else {
+            for (place, limit) in limits.of_wheels() {
+                begin_with(limit, body.warm.wheels[place] * seconds, speeds, answer);
+            }
+        }
+        for (touch, contact) in limits.touches.iter_mut().zip(&body.contacts) {
+            let Some([push, rub]) = body.warm.at(of_wall(contact), seconds) else { continue };
+            touch.push.impulse = push;
+            add(speeds, answer.of(touch.push.gain), push);
+            touch.rub.impulse = rub;
+            add(speeds, answer.of(touch.rub.gain), rub);
+        }
+    }
+
+    /// Keeps the impulses for the next one.
+    fn keep(&mut self, body: &mut Body, seconds: f64) {
+        body.warm.forget();
+        body.warm.sole = self.limits.sole.as_ref().map_or([0.0; 3], |sole| sole.share);
+        for (place, limit) in self.limits.of_wheels() {
+            body.warm.wheels[place] = limit.impulse / seconds;
+        }
+        for (touch, contact) in self.limits.touches.iter().zip(&body.contacts) {
+            body.warm.note(of_wall(contact), touch, seconds);
+        }
     }
 }
 
@@ -228,6 +218,14 @@ pub(crate) struct Body {
     /// Its speeds ahead (cm/s) and clockwise (rad/s), where its wheels may spin: at another robot,
     /// and until they roll again.
     pub(crate) spins: Option<[f64; 2]>,
+    /// The floor's hold on a thing; `None` for a robot.
+    pub(crate) floor: Option<Floor>,
+    /// The share of its speed with which a thing comes back from a wall.
+    bounce: f64,
+    /// The impulses of its last step among things.
+    warm: Warm,
+    /// How often it was stopped, since no place was free where it went.
+    pub(crate) halts: u32,
     /// How far the hull may still move before contacts have to be looked for again, in cm.
     free_way: f64,
     contacts: Vec<Contact>,
@@ -245,15 +243,35 @@ impl Body {
     pub(crate) fn new(robot: &RobotSpec, pose: Pose) -> Body {
         let reach_m = robot.hull.reach() / 100.0;
         let wheels = robot.wheels;
+        let moment = robot.mass * reach_m * reach_m / 2.0;
         Body {
-            pose,
             roll: wheels.map_or([0.0; 2], |wheels| [roll(wheels.left), roll(wheels.right)]),
             axle: wheels.map_or(1.0, |wheels| wheels.axle),
-            mass: robot.mass,
-            moment: robot.mass * reach_m * reach_m / 2.0,
+            ..Body::still(pose, robot.mass, moment)
+        }
+    }
+
+    /// A thing of this inertia, in kg, and moment of inertia around its center, in kg m². It comes
+    /// back from a wall with a share of its speed.
+    pub(crate) fn thing(pose: Pose, inertia: f64, moment: f64, floor: Floor, bounce: f64) -> Body {
+        let (spins, floor) = (Some([0.0; 2]), Some(floor));
+        Body { spins, floor, bounce, ..Body::still(pose, inertia, moment) }
+    }
+
+    fn still(pose: Pose, mass: f64, moment: f64) -> Body {
+        Body {
+            pose,
+            roll: [0.0; 2],
+            axle: 1.0,
+            mass,
+            moment,
             turn_rate: 0.0,
             slip: 0.0,
             spins: None,
+            floor: None,
+            bounce: 0.0,
+            warm: Warm::default(),
+            halts: 0,
             free_way: 0.0,
             contacts: Vec::new(),
             touching: Vec::new(),
@@ -261,12 +279,12 @@ impl Body {
         }
     }
 
-    /// Puts the robot somewhere else, at rest.
+    /// Puts it somewhere else, at rest.
     pub(crate) fn place(&mut self, pose: Pose) {
         self.pose = pose;
         self.turn_rate = 0.0;
         self.slip = 0.0;
-        self.spins = None;
+        self.spins = self.floor.map(|_| [0.0; 2]);
         self.world_changed();
         self.touching.clear();
     }
@@ -274,6 +292,7 @@ impl Body {
     /// Something was added or taken away.
     pub(crate) fn world_changed(&mut self) {
         self.free_way = 0.0;
+        self.warm.forget();
     }
 
     /// Speed ahead (cm/s) and turning clockwise (rad/s).
@@ -295,9 +314,14 @@ impl Body {
 
     /// Energy of motion, in joules.
     pub(crate) fn energy(&self, omega: [f64; 2], loads: &[Load; 2]) -> f64 {
+        let slipping = self.mass * (self.slip / 100.0).powi(2) / 2.0;
+        if let Some([ahead, turn]) = self.spins {
+            let shaft = |i: usize| loads[i].inertia * omega[i] * omega[i] / 2.0;
+            let moving = self.mass * (ahead / 100.0).powi(2) + self.moment * turn * turn;
+            return shaft(0) + shaft(1) + moving / 2.0 + slipping;
+        }
         let m = self.inertia(loads);
         let pull = |i: usize| m[i][0] * omega[0] + m[i][1] * omega[1];
-        let slipping = self.mass * (self.slip / 100.0).powi(2) / 2.0;
         f64::midpoint(omega[0] * pull(0), omega[1] * pull(1)) + slipping
     }
 
@@ -307,16 +331,16 @@ impl Body {
         &mut self,
         omega: &mut [f64; 2],
         loads: &[Load; 2],
-        robot: &RobotSpec,
+        hull: Hull,
         scene: &Scene,
         mut hit: impl FnMut(ItemId),
     ) {
-        let way = self.way_in_a_tick(*omega, robot);
+        let way = self.way_in_a_tick(*omega, hull);
         let is_near = way > STRIDE && self.free_way < 2.0 * way;
         let parts = if is_near { (way / STRIDE).ceil() } else { 1.0 };
         let mut part = 0.0;
         while part < parts {
-            self.advance_part(TICK_SECONDS / parts, omega, loads, robot, scene, &mut hit);
+            self.advance_part(TICK_SECONDS / parts, omega, loads, hull, scene, &mut hit);
             part += 1.0;
         }
     }
@@ -326,13 +350,13 @@ impl Body {
         seconds: f64,
         omega: &mut [f64; 2],
         loads: &[Load; 2],
-        robot: &RobotSpec,
+        hull: Hull,
         scene: &Scene,
         hit: &mut impl FnMut(ItemId),
     ) {
-        let mut step = self.begin(seconds, *omega, loads, robot, scene);
+        let mut step = self.begin(seconds, *omega, loads, hull, scene);
         step.limits.solve(&mut step.speeds, &step.answer);
-        *omega = self.finish(step, seconds, loads, robot, scene, hit);
+        *omega = self.finish(step, seconds, loads, hull, scene, hit);
     }
 
     /// The speeds that the motors alone would give, and what limits them.
@@ -341,22 +365,22 @@ impl Body {
         seconds: f64,
         omega: [f64; 2],
         loads: &[Load; 2],
-        robot: &RobotSpec,
+        hull: Hull,
         scene: &Scene,
     ) -> Step {
         let (speeds, answer) = match self.spins {
             None => self.rolling(seconds, omega, loads),
             Some(spins) => self.spinning(seconds, omega, spins, loads),
         };
-        let way = way_bound(speeds, robot, seconds).max(0.01);
+        let way = way_bound(speeds, hull, seconds).max(0.01);
         if self.free_way <= way {
             let frame = self.pose.frame();
-            let free = scene.contacts(robot.hull, &frame, MARGIN, &mut self.contacts);
+            let free = scene.contacts(hull, &frame, MARGIN, &mut self.contacts);
             self.free_way = free - MARGIN;
         } else {
             self.contacts.clear();
         }
-        let limits = self.limits(loads, seconds);
+        let limits = self.limits(&speeds, loads, seconds);
         Step { speeds, answer, limits }
     }
 
@@ -410,7 +434,7 @@ impl Body {
         step: Step,
         seconds: f64,
         loads: &[Load; 2],
-        robot: &RobotSpec,
+        hull: Hull,
         scene: &Scene,
         hit: &mut impl FnMut(ItemId),
     ) -> [f64; 2] {
@@ -429,25 +453,31 @@ impl Body {
             (speeds[3], speeds[4]) = (0.0, 0.0);
         }
         self.report(&limits.touches, hit);
-        self.free_way -= way_bound(speeds, robot, seconds);
-        if !self.move_on(speeds, seconds, robot, scene) {
+        self.free_way -= way_bound(speeds, hull, seconds);
+        if !self.move_on(speeds, seconds, hull, scene) {
             speeds = [0.0; 5];
+        }
+        self.turn_rate = speeds[4].to_degrees();
+        if self.floor.is_some() {
+            // These speeds are in the frame of the body. What turns keeps its way over the floor.
+            let (sin, cos) = libm::sincos(speeds[4] * seconds);
+            let [_, _, aside, ahead, _] = speeds;
+            (speeds[2], speeds[3]) = (aside * cos - ahead * sin, aside * sin + ahead * cos);
         }
         self.slip = speeds[2];
         if self.spins.is_some() {
             self.spins = Some([speeds[3], speeds[4]]);
         }
-        self.turn_rate = speeds[4].to_degrees();
         [speeds[0], speeds[1]]
     }
 
     /// No point of the hull moves further than this in a tick at its present speeds, in cm.
-    fn way_in_a_tick(&self, omega: [f64; 2], robot: &RobotSpec) -> f64 {
+    fn way_in_a_tick(&self, omega: [f64; 2], hull: Hull) -> f64 {
         let (ahead, turn) = self.spins.map_or_else(|| self.twist(omega), |[a, t]| (a, t));
-        way_bound([0.0, 0.0, self.slip, ahead, turn], robot, TICK_SECONDS)
+        way_bound([0.0, 0.0, self.slip, ahead, turn], hull, TICK_SECONDS)
     }
 
-    fn limits(&self, loads: &[Load; 2], seconds: f64) -> Limits {
+    fn limits(&self, speeds: &Speeds, loads: &[Load; 2], seconds: f64) -> Limits {
         let shaft = |index: usize| {
             let load = &loads[index];
             let most = if load.jammed { f64::INFINITY } else { load.friction * seconds };
@@ -465,12 +495,17 @@ impl Body {
                 Limit::friction([0.0, self.roll[1], 0.0, -1.0, half], grip / 2.0),
             ]
         });
-        let touch = |contact: &Contact| Touch {
-            push: Limit::push(self.gain(contact.point, contact.normal), contact.gap, seconds),
-            rub: Limit::friction(self.gain(contact.point, contact.along()), 0.0),
+        let touch = |contact: &Contact| {
+            let gain = self.gain(contact.point, contact.normal);
+            let mut push = Limit::push(gain, contact.gap, seconds);
+            push.bounce(dot(gain, *speeds), contact.gap, self.bounce, seconds);
+            let rub = Limit::friction(self.gain(contact.point, contact.along()), 0.0);
+            Touch { push, rub }
         };
         let touches = self.contacts.iter().map(touch).collect();
-        Limits { shafts: [shaft(0), shaft(1)], tires, grips, touches }
+        let answers = [self.lightness(), 1.0 / self.moment];
+        let sole = self.floor.map(|floor| Sole::new(floor, answers, seconds));
+        Limits { sole, shafts: [shaft(0), shaft(1)], tires, grips, touches }
     }
 
     /// How fast a point of the hull moves into a direction.
@@ -502,13 +537,13 @@ impl Body {
     }
 
     /// Moves along the arc, unless there is no place for it; false then.
-    fn move_on(&mut self, speeds: Speeds, seconds: f64, robot: &RobotSpec, scene: &Scene) -> bool {
+    fn move_on(&mut self, speeds: Speeds, seconds: f64, hull: Hull, scene: &Scene) -> bool {
         if speeds.iter().all(|speed| *speed == 0.0) {
             return true;
         }
         let nearest = self.contacts.iter().map(|c| c.gap).fold(f64::INFINITY, f64::min);
         let next = self.after(speeds, seconds);
-        if nearest >= 2.0 * SKIN + way_bound(speeds, robot, seconds) {
+        if nearest >= 2.0 * SKIN + way_bound(speeds, hull, seconds) {
             self.pose = next;
             return true;
         }
@@ -516,7 +551,7 @@ impl Body {
         // Rounding, and a contact whose direction changes on the way, may lead too near.
         let shorter = [1.0, 0.5, 0.1].map(|share| self.after(speeds, seconds * share));
         let place =
-            shorter.into_iter().find_map(|next| self.pushed_away(next, enough, robot, scene));
+            shorter.into_iter().find_map(|next| self.pushed_away(next, enough, hull, scene));
         self.pose = place.unwrap_or(self.pose);
         place.is_some()
     }
@@ -525,7 +560,9 @@ impl Body {
     fn after(&self, speeds: Speeds, seconds: f64) -> Pose {
         let [_, _, aside, ahead, turn] = speeds;
         let turned = turn.to_degrees() * seconds;
-        let (sin, cos) = sin_cos(self.pose.heading + turned / 2.0);
+        // Wheels follow an arc; a thing goes straight on while it turns.
+        let bend = if self.floor.is_some() { 0.0 } else { turned / 2.0 };
+        let (sin, cos) = sin_cos(self.pose.heading + bend);
         Pose {
             x: self.pose.x + sin * ahead * seconds + cos * aside * seconds,
             y: self.pose.y + cos * ahead * seconds - sin * aside * seconds,
@@ -538,13 +575,13 @@ impl Body {
         &mut self,
         mut place: Pose,
         enough: f64,
-        robot: &RobotSpec,
+        hull: Hull,
         scene: &Scene,
     ) -> Option<Pose> {
         for _ in 0..PUSHES {
-            let free = scene.contacts(robot.hull, &place.frame(), MARGIN, &mut self.contacts);
+            let free = scene.contacts(hull, &place.frame(), MARGIN, &mut self.contacts);
             if free >= enough {
-                let is_free = scene.overlap(robot.hull, &place).is_none();
+                let is_free = scene.overlap(hull, &place).is_none();
                 return is_free.then_some(place);
             }
             let mut push = Vec2::zeros();
@@ -558,25 +595,8 @@ impl Body {
     }
 }
 
-fn apply(matrix: &[[f64; 2]; 2], vector: [f64; 2]) -> [f64; 2] {
-    [
-        matrix[0][0] * vector[0] + matrix[0][1] * vector[1],
-        matrix[1][0] * vector[0] + matrix[1][1] * vector[1],
-    ]
-}
-
 /// No point of the hull moves further than this in this time, in cm.
-fn way_bound(speeds: Speeds, robot: &RobotSpec, seconds: f64) -> f64 {
+fn way_bound(speeds: Speeds, hull: Hull, seconds: f64) -> f64 {
     let [_, _, aside, ahead, turn] = speeds;
-    (ahead.abs() + aside.abs() + turn.abs() * robot.hull.reach()) * seconds
-}
-
-fn dot(a: Speeds, b: Speeds) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4]
-}
-
-fn add(speeds: &mut Speeds, answer: Speeds, step: f64) {
-    for (speed, answer) in speeds.iter_mut().zip(answer) {
-        *speed += answer * step;
-    }
+    (ahead.abs() + aside.abs() + turn.abs() * hull.reach()) * seconds
 }

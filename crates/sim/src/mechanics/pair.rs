@@ -4,13 +4,14 @@
 //! body and shafts with friction at most their own, in all directions together; so a robot that is
 //! heavier, or whose motors are stronger, pushes the other one, and wheels spin. The tires of one
 //! that holds its motors let it slide.
-use super::{
-    Body, CONTACT_OVER, Load, MARGIN, ROUNDS, SKIN, SOLVED, STRIDE, Speeds, Step, TICK_SECONDS,
-    Touch, add, dot,
-};
+//!
+//! Things that robots push take part in the same way. Among them each step begins with the
+//! impulses of the last one.
+use super::{Body, CONTACT_OVER, Load, MARGIN, ROUNDS, SOLVED, STRIDE, Step, TICK_SECONDS};
 use crate::ItemId;
-use crate::mechanics::Limit;
-use crate::robot::RobotSpec;
+use crate::mechanics::limit::{Limit, SKIN, Speeds, Touch, add, dot};
+use crate::mechanics::warm::Key;
+use crate::world::Hull;
 use crate::world::obstacle::{Contact, Obstacle};
 use crate::world::scene::Scene;
 use ev3_motion::{Pose, Vec2};
@@ -19,14 +20,20 @@ use ev3_motion::{Pose, Vec2};
 const PUSHES: usize = 8;
 /// Wheels that spin slower than this over the floor roll, in cm/s.
 const ROLLS: f64 = 1e-3;
+/// Contacts of things nearer than this take part, in cm: farther than both move in a step.
+const NEAR: f64 = 2.0 * STRIDE + 0.05;
+/// Among things a step begins with the impulses of the last one. After this number of rounds it is
+/// enough that no speed changes by more than the second number, in cm/s.
+const WARM_ROUNDS: usize = 16;
+const WARM_SOLVED: f64 = 1e-3;
 
-/// A robot near another one, for a tick.
+/// A robot near another one, or a thing, for a tick.
 pub(crate) struct Rider<'a> {
     pub(crate) id: ItemId,
     pub(crate) body: &'a mut Body,
     pub(crate) omega: [f64; 2],
     pub(crate) loads: [Load; 2],
-    pub(crate) robot: &'a RobotSpec,
+    pub(crate) hull: Hull,
     pub(crate) scene: &'a Scene,
     /// What it has run into.
     pub(crate) hits: Vec<ItemId>,
@@ -34,17 +41,21 @@ pub(crate) struct Rider<'a> {
 
 impl Rider<'_> {
     fn obstacle(&self) -> Obstacle {
-        Obstacle::robot(self.id, self.robot.hull, &self.body.pose)
+        Obstacle::robot(self.id, self.hull, &self.body.pose)
     }
 
-    /// Where it is nearer than the margin to another one.
-    fn contacts(&self, other: &Obstacle) -> Vec<Contact> {
-        let (hull, frame) = (self.robot.hull, self.body.pose.frame());
+    fn is_thing(&self) -> bool {
+        self.body.floor.is_some()
+    }
+
+    /// Where it is nearer than this to another one.
+    fn contacts(&self, other: &Obstacle, margin: f64) -> Vec<Contact> {
+        let frame = self.body.pose.frame();
         let mut contacts = Vec::new();
-        if other.at_least(frame.translation.vector, hull.reach()) < MARGIN {
-            other.touch_points(hull, &frame, |gap, normal, point| {
-                if gap < MARGIN {
-                    contacts.push(Contact { id: other.id, gap, normal, point });
+        if other.at_least(frame.translation.vector, self.hull.reach()) < margin {
+            other.touch_points(self.hull, &frame, 0, |contact| {
+                if contact.gap < margin {
+                    contacts.push(contact);
                 }
             });
         }
@@ -53,6 +64,7 @@ impl Rider<'_> {
 
     fn stop_at(&mut self, pose: Pose) {
         self.body.place(pose);
+        self.body.halts += 1;
         self.body.spins = Some([0.0; 2]);
         self.omega = [0.0; 2];
     }
@@ -61,29 +73,38 @@ impl Rider<'_> {
     fn shift(&mut self, by: Vec2) {
         let pose =
             Pose { x: self.body.pose.x + by.x, y: self.body.pose.y + by.y, ..self.body.pose };
-        if self.scene.overlap(self.robot.hull, &pose).is_none() {
+        if self.scene.overlap(self.hull, &pose).is_none() {
             self.body.pose = pose;
             self.body.world_changed();
         }
     }
 }
 
-/// Two robots at one place: the limits act on the first one, these gains on the second one.
+/// Two bodies at one place: the limits act on the first one.
 struct Pair {
     bodies: [usize; 2],
     touch: Touch,
-    pushed: Speeds,
-    rubbed: Speeds,
+    rubbed: Both,
+    pushed: Both,
     gap: f64,
+    key: Key,
 }
 
-/// A tick of robots that are near each other.
+/// What a limit of two bodies does: the gain of the second one, how both answer, and how much an
+/// impulse changes the limited speed.
+struct Both {
+    gain: Speeds,
+    answers: [Speeds; 2],
+    softness: f64,
+}
+
+/// A tick of robots and things that are near each other.
 pub(crate) fn advance(riders: &mut [Rider]) {
     let mut parts: f64 = 1.0;
     for rider in &mut *riders {
         let (ahead, turn) = rider.body.twist(rider.omega);
         rider.body.spins.get_or_insert([ahead, turn]);
-        parts = parts.max((rider.body.way_in_a_tick(rider.omega, rider.robot) / STRIDE).ceil());
+        parts = parts.max((rider.body.way_in_a_tick(rider.omega, rider.hull) / STRIDE).ceil());
     }
     let mut part = 0.0;
     while part < parts {
@@ -91,7 +112,7 @@ pub(crate) fn advance(riders: &mut [Rider]) {
         part += 1.0;
     }
     for rider in riders {
-        if rider.body.bumps.is_empty() && rider.body.rolls(rider.omega) {
+        if !rider.is_thing() && rider.body.bumps.is_empty() && rider.body.rolls(rider.omega) {
             rider.body.spins = None;
         }
     }
@@ -100,49 +121,73 @@ pub(crate) fn advance(riders: &mut [Rider]) {
 fn advance_part(riders: &mut [Rider], seconds: f64) {
     let mut steps: Vec<Step> = Vec::with_capacity(riders.len());
     for rider in &mut *riders {
-        let Rider { body, omega, loads, robot, scene, .. } = rider;
-        steps.push(body.begin(seconds, *omega, loads, robot, scene));
+        let Rider { body, omega, loads, hull, scene, .. } = rider;
+        steps.push(body.begin(seconds, *omega, loads, *hull, scene));
     }
-    let mut pairs = pairs(riders, seconds);
-    for _ in 0..ROUNDS {
+    let mut pairs = pairs(riders, &steps, seconds);
+    let is_warm = riders.iter().any(Rider::is_thing);
+    if is_warm {
+        for pair in &mut pairs {
+            if let Some(impulses) = riders[pair.bodies[0]].body.warm.at(pair.key, seconds) {
+                pair.begin_with(impulses, &mut steps);
+            }
+        }
+        for (rider, step) in riders.iter().zip(&mut steps) {
+            step.warm_up(rider.body, seconds);
+        }
+    }
+    for round in 1..=ROUNDS {
         let rounds = steps.iter_mut().map(|step| step.limits.round(&mut step.speeds, &step.answer));
         let mut change = rounds.fold(0.0, f64::max);
         for pair in &mut pairs {
             change = change.max(pair.round(&mut steps));
         }
-        if change < SOLVED {
+        let enough = if is_warm && round >= WARM_ROUNDS { WARM_SOLVED } else { SOLVED };
+        if change < enough {
             break;
         }
+    }
+    for (rider, step) in riders.iter_mut().zip(&mut steps).filter(|_| is_warm) {
+        step.keep(rider.body, seconds);
+    }
+    for pair in pairs.iter().filter(|_| is_warm) {
+        riders[pair.bodies[0]].body.warm.note(pair.key, &pair.touch, seconds);
     }
     report(riders, &pairs);
     let before: Vec<_> = riders.iter().map(|rider| rider.body.pose).collect();
     for (rider, step) in riders.iter_mut().zip(steps) {
-        let Rider { body, omega, loads, robot, scene, hits, .. } = rider;
-        *omega = body.finish(step, seconds, loads, robot, scene, &mut |item| hits.push(item));
+        let Rider { body, omega, loads, hull, scene, hits, .. } = rider;
+        *omega = body.finish(step, seconds, loads, *hull, scene, &mut |item| hits.push(item));
     }
     part_them(riders, &before);
 }
 
-fn pairs(riders: &[Rider], seconds: f64) -> Vec<Pair> {
+fn pairs(riders: &[Rider], steps: &[Step], seconds: f64) -> Vec<Pair> {
     let obstacles: Vec<_> = riders.iter().map(Rider::obstacle).collect();
     let mut pairs = Vec::new();
     for (second, obstacle) in obstacles.iter().enumerate() {
         for (first, rider) in riders[..second].iter().enumerate() {
-            for contact in rider.contacts(obstacle) {
-                let (point, normal, along) = (contact.point, contact.normal, contact.along());
-                let other = &riders[second].body;
-                let touch = Touch {
-                    push: Limit::push(rider.body.gain(point, normal), contact.gap, seconds),
-                    rub: Limit::friction(rider.body.gain(point, along), 0.0),
-                };
-                let pushed = other.gain(point, -normal);
-                let rubbed = other.gain(point, -along);
+            let other = &riders[second];
+            let margin = if rider.is_thing() || other.is_thing() { NEAR } else { MARGIN };
+            for contact in rider.contacts(obstacle, margin) {
+                let Contact { gap, normal, point, corner, .. } = contact;
+                let [push, rub] = [normal, contact.along()].map(|into| {
+                    let gains = [rider.body.gain(point, into), other.body.gain(point, -into)];
+                    (gains[0], Both::new(gains, [&steps[first], &steps[second]]))
+                });
+                let ((push, pushed), (rub, rubbed)) = (push, rub);
+                let mut push = Limit::push(push, gap, seconds);
+                let bounce = rider.body.bounce.max(other.body.bounce);
+                let speed =
+                    dot(push.gain, steps[first].speeds) + dot(pushed.gain, steps[second].speeds);
+                push.bounce(speed, gap, bounce, seconds);
                 pairs.push(Pair {
                     bodies: [first, second],
-                    touch,
-                    pushed,
+                    touch: Touch { push, rub: Limit::friction(rub, 0.0) },
                     rubbed,
-                    gap: contact.gap,
+                    pushed,
+                    gap,
+                    key: Key([rider.id.0, other.id.0, corner]),
                 });
             }
         }
@@ -150,23 +195,42 @@ fn pairs(riders: &[Rider], seconds: f64) -> Vec<Pair> {
     pairs
 }
 
-impl Pair {
-    fn round(&mut self, steps: &mut [Step]) -> f64 {
-        let Pair { bodies, touch, pushed, rubbed, .. } = self;
-        let mut gains = [*rubbed, *pushed].into_iter();
-        touch.round(|limit| apply(limit, gains.next().unwrap_or_default(), *bodies, steps))
+impl Both {
+    fn new(gains: [Speeds; 2], steps: [&Step; 2]) -> Both {
+        let answers = [0, 1].map(|i| steps[i].answer.of(gains[i]));
+        let softness = dot(gains[0], answers[0]) + dot(gains[1], answers[1]);
+        Both { gain: gains[1], answers, softness }
+    }
+
+    /// Gives both bodies an impulse.
+    fn give(&self, step: f64, [first, second]: [usize; 2], steps: &mut [Step]) {
+        add(&mut steps[first].speeds, self.answers[0], step);
+        add(&mut steps[second].speeds, self.answers[1], step);
+    }
+
+    /// Gives both bodies the impulse that is missing.
+    fn apply(&self, limit: &mut Limit, [first, second]: [usize; 2], steps: &mut [Step]) -> f64 {
+        let speed = dot(limit.gain, steps[first].speeds) + dot(self.gain, steps[second].speeds);
+        let step = limit.step(speed, self.softness);
+        self.give(step, [first, second], steps);
+        (step * self.softness).abs()
     }
 }
 
-/// Gives both bodies the impulse that is missing.
-fn apply(limit: &mut Limit, gain: Speeds, [first, second]: [usize; 2], steps: &mut [Step]) -> f64 {
-    let answers = [steps[first].answer.of(limit.gain), steps[second].answer.of(gain)];
-    let softness = dot(limit.gain, answers[0]) + dot(gain, answers[1]);
-    let speed = dot(limit.gain, steps[first].speeds) + dot(gain, steps[second].speeds);
-    let step = limit.step(speed, softness);
-    add(&mut steps[first].speeds, answers[0], step);
-    add(&mut steps[second].speeds, answers[1], step);
-    (step * softness).abs()
+impl Pair {
+    fn round(&mut self, steps: &mut [Step]) -> f64 {
+        let Pair { bodies, touch, rubbed, pushed, .. } = self;
+        let mut both = [rubbed, pushed].into_iter();
+        touch.round(|limit| both.next().map_or(0.0, |both| both.apply(limit, *bodies, steps)))
+    }
+
+    /// Begins with these impulses of push and rub.
+    fn begin_with(&mut self, [push, rub]: [f64; 2], steps: &mut [Step]) {
+        self.touch.push.impulse = push;
+        self.pushed.give(push, self.bodies, steps);
+        self.touch.rub.impulse = rub;
+        self.rubbed.give(rub, self.bodies, steps);
+    }
 }
 
 /// A collision is counted when one begins to push.
@@ -196,7 +260,7 @@ fn part_them(riders: &mut [Rider], before: &[Pose]) {
         let mut is_free = true;
         for second in 1..riders.len() {
             for first in 0..second {
-                let contacts = riders[first].contacts(&riders[second].obstacle());
+                let contacts = riders[first].contacts(&riders[second].obstacle(), SKIN);
                 let nearest = contacts.into_iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
                 let Some(Contact { gap, normal, .. }) = nearest.filter(|c| c.gap < SKIN / 2.0)
                 else {

@@ -4,8 +4,8 @@ use std::fmt;
 
 use crate::brick::port::Port;
 use crate::noise::Echo;
-use crate::world::Hull;
 use crate::world::color::Color;
+use crate::world::{Hull, Traits};
 
 /// A kind of argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +19,7 @@ pub enum Kind {
     Places,
     Rows,
     Hull,
+    Traits,
     WheelOptions,
     MotorOptions,
     EchoOptions,
@@ -45,6 +46,8 @@ pub enum Value {
     Rows(Vec<String>),
     /// An outline of a robot.
     Hull(Hull),
+    /// The properties of a box or circle.
+    Traits(Traits),
     /// How a wheel is mounted.
     WheelOptions {
         /// The other way round.
@@ -63,6 +66,7 @@ impl Value {
     pub(crate) fn saved(&self) -> String {
         match self {
             Value::Color(color) => format!("'{color}'"),
+            Value::Traits(traits) => traits.saved(),
             Value::Places(places) => {
                 format!("[{}]", places.iter().map(pair).collect::<Vec<_>>().join(", "))
             }
@@ -80,6 +84,7 @@ impl fmt::Display for Value {
             Value::Color(color) => write!(f, "{color}"),
             Value::Port(port) => write!(f, "{port}"),
             Value::Text(text) => f.write_str(text),
+            Value::Traits(traits) => write!(f, "{traits}"),
             Value::Place([x, y]) => write!(f, "{x}, {y}"),
             Value::Places(places) => match &places[..] {
                 [] => f.write_str("[]"),
@@ -121,7 +126,16 @@ impl Form {
         name: &'static str,
         arguments: &'static [(&'static str, Kind)],
     ) -> Form {
-        Form { name, arguments, least: arguments.len() - 1 }
+        Form::with_defaults(name, arguments, 1)
+    }
+
+    /// A form whose last arguments may be left out.
+    pub(crate) const fn with_defaults(
+        name: &'static str,
+        arguments: &'static [(&'static str, Kind)],
+        count: usize,
+    ) -> Form {
+        Form { name, arguments, least: arguments.len() - count }
     }
 
     /// Whether a fact may have `count` arguments.

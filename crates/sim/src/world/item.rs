@@ -7,6 +7,7 @@ use std::fmt;
 use crate::brick::port::Port;
 use crate::world::color::Color;
 use crate::world::form::{Form, Kind, Value};
+use crate::world::{Hull, Traits};
 
 /// Names an item of a world. Bounds are item 0, the items of the world's spec follow in order,
 /// and what is added later gets the next number; numbers are not used again.
@@ -33,6 +34,8 @@ pub enum Item {
         width: f64,
         /// Extent along its heading.
         depth: f64,
+        /// All else.
+        traits: Traits,
     },
     /// A round thing.
     Circle {
@@ -40,6 +43,8 @@ pub enum Item {
         center: Point,
         /// Radius.
         radius: f64,
+        /// All else.
+        traits: Traits,
     },
     /// A colored polygon on the floor. Later patches and lines cover earlier ones.
     Patch {
@@ -87,18 +92,18 @@ pub enum Item {
 
 /// The things that a world may have.
 pub(crate) const THINGS: &[Form] = {
-    use Kind::{Channel, Color, Number, Places, Port};
+    use Kind::{Channel, Color, Number, Places, Port, Traits};
     const X: (&str, Kind) = ("X", Number);
     const Y: (&str, Kind) = ("Y", Number);
     const WALL: &[(&str, Kind)] =
         &[("X1", Number), ("Y1", Number), ("X2", Number), ("Y2", Number), ("Thickness", Number)];
+    const OPTIONS: (&str, Kind) = ("Options", Traits);
+    const BOX: &[(&str, Kind)] =
+        &[X, Y, ("Width", Number), ("Depth", Number), ("Heading", Number), OPTIONS];
     &[
         Form::with_default("wall", WALL),
-        Form::with_default(
-            "box",
-            &[X, Y, ("Width", Number), ("Depth", Number), ("Heading", Number)],
-        ),
-        Form::new("circle", &[X, Y, ("Radius", Number)]),
+        Form::with_defaults("box", BOX, 2),
+        Form::with_default("circle", &[X, Y, ("Radius", Number), OPTIONS]),
         Form::new("patch", &[("Color", Color), ("Corners", Places)]),
         Form::new("line", &[("Color", Color), ("Width", Number), ("Places", Places)]),
         Form::with_default("lamp", &[X, Y, ("Intensity", Number), ("Port", Port)]),
@@ -122,7 +127,7 @@ pub enum Shape<'a> {
 impl Item {
     /// The thing of a fact with this name. `None` if its arguments are others than its form says.
     pub(crate) fn of(name: &str, arguments: &[Value]) -> Option<Item> {
-        use Value::{Channel, Color, Number, Places, Port};
+        use Value::{Channel, Color, Number, Places, Port, Traits};
         Some(match (name, arguments) {
             ("wall", [Number(x1), Number(y1), Number(x2), Number(y2)]) => {
                 Item::wall([*x1, *y1], [*x2, *y2])
@@ -130,14 +135,23 @@ impl Item {
             ("wall", [Number(x1), Number(y1), Number(x2), Number(y2), Number(thickness)]) => {
                 Item::Wall { from: [*x1, *y1], to: [*x2, *y2], thickness: *thickness }
             }
-            ("box", [Number(x), Number(y), Number(width), Number(depth)]) => {
-                Item::Box { pose: Pose::new(*x, *y, 0.0), width: *width, depth: *depth }
+            ("box", [Number(x), Number(y), Number(width), Number(depth), others @ ..]) => {
+                let (heading, traits) = match others {
+                    [] => (0.0, self::Traits::default()),
+                    [Number(heading)] => (*heading, self::Traits::default()),
+                    [Number(heading), Traits(traits)] => (*heading, traits.clone()),
+                    _ => return None,
+                };
+                let pose = Pose::new(*x, *y, heading);
+                Item::Box { pose, width: *width, depth: *depth, traits }
             }
-            ("box", [Number(x), Number(y), Number(width), Number(depth), Number(heading)]) => {
-                Item::Box { pose: Pose::new(*x, *y, *heading), width: *width, depth: *depth }
-            }
-            ("circle", [Number(x), Number(y), Number(radius)]) => {
-                Item::Circle { center: [*x, *y], radius: *radius }
+            ("circle", [Number(x), Number(y), Number(radius), others @ ..]) => {
+                let traits = match others {
+                    [] => self::Traits::default(),
+                    [Traits(traits)] => traits.clone(),
+                    _ => return None,
+                };
+                Item::Circle { center: [*x, *y], radius: *radius, traits }
             }
             ("patch", [Color(color), Places(corners)]) => {
                 Item::Patch { corners: corners.clone(), color: *color }
@@ -163,18 +177,23 @@ impl Item {
         use Value::{Channel, Color, Number, Place, Places, Port};
         let place = |[x, y]: Point| [("x", Number(x)), ("y", Number(y))];
         let with = |at: Point, others: Vec<_>| place(at).into_iter().chain(others).collect();
+        let others = |traits: &Traits| {
+            let is_plain = *traits == Traits::default();
+            (!is_plain).then(|| ("traits", Value::Traits(traits.clone())))
+        };
         match self {
             Item::Wall { from, to, thickness } => (
                 "wall",
                 vec![("from", Place(*from)), ("to", Place(*to)), ("thickness", Number(*thickness))],
             ),
-            Item::Box { pose: Pose { x, y, heading }, width, depth } => {
-                let others = [("w", *width), ("d", *depth), ("h", *heading)];
-                let others = others.map(|(name, number)| (name, Number(number)));
-                ("box", with([*x, *y], others.to_vec()))
+            Item::Box { pose: Pose { x, y, heading }, width, depth, traits } => {
+                let sides = [("w", *width), ("d", *depth), ("h", *heading)];
+                let sides = sides.map(|(name, number)| (name, Number(number)));
+                ("box", with([*x, *y], sides.into_iter().chain(others(traits)).collect()))
             }
-            Item::Circle { center, radius } => {
-                ("circle", with(*center, vec![("r", Number(*radius))]))
+            Item::Circle { center, radius, traits } => {
+                let radius = [("r", Number(*radius))].into_iter();
+                ("circle", with(*center, radius.chain(others(traits)).collect()))
             }
             Item::Patch { corners, color } => {
                 ("patch", vec![("color", Color(*color)), ("points", Places(corners.clone()))])
@@ -203,8 +222,8 @@ impl Item {
     pub fn shape(&self) -> Shape<'_> {
         match *self {
             Item::Wall { from, to, thickness } => Shape::Bar { from, to, thickness },
-            Item::Box { pose, width, depth } => Shape::Box { pose, width, depth },
-            Item::Circle { center, radius } => Shape::Disc { center, radius },
+            Item::Box { pose, width, depth, .. } => Shape::Box { pose, width, depth },
+            Item::Circle { center, radius, .. } => Shape::Disc { center, radius },
             Item::Patch { ref corners, color } => Shape::Area { corners, color },
             Item::Line { ref points, width, color } => Shape::Band { points, width, color },
             Item::Lamp { at, .. } | Item::Bulb { at, .. } => {
@@ -221,6 +240,39 @@ impl Item {
     /// A wall of the usual thickness, 1 cm.
     pub const fn wall(from: Point, to: Point) -> Item {
         Item::Wall { from, to, thickness: 1.0 }
+    }
+
+    /// A box that stands fast.
+    pub fn boxed(pose: Pose, width: f64, depth: f64) -> Item {
+        Item::Box { pose, width, depth, traits: Traits::default() }
+    }
+
+    /// A pillar that stands fast.
+    pub fn circle(center: Point, radius: f64) -> Item {
+        Item::Circle { center, radius, traits: Traits::default() }
+    }
+
+    /// The properties of a box or circle.
+    pub fn traits(&self) -> Option<&Traits> {
+        match self {
+            Item::Box { traits, .. } | Item::Circle { traits, .. } => Some(traits),
+            _ => None,
+        }
+    }
+
+    /// The pose and outline of a thing that robots push, and its properties.
+    pub(crate) fn movable(&self) -> Option<(Pose, Hull, &Traits)> {
+        let (pose, hull) = match *self {
+            Item::Box { pose, width, depth, .. } => {
+                (pose, Hull::Rectangle { width, length: depth, offset: 0.0 })
+            }
+            Item::Circle { center: [x, y], radius, .. } => {
+                (Pose::new(x, y, 0.0), Hull::Circle { radius })
+            }
+            _ => return None,
+        };
+        let traits = self.traits().filter(|traits| traits.mass.is_some())?;
+        Some((pose, hull, traits))
     }
 
     /// A colored rectangle on the floor from one corner to the opposite one.
@@ -251,14 +303,16 @@ impl Item {
                 (positive(libm::hypot(to[0] - from[0], to[1] - from[1])), "has no length"),
                 (positive(*thickness), "needs a thickness above 0"),
             ]),
-            Item::Box { pose, width, depth } => first_fault([
+            Item::Box { pose, width, depth, traits } => first_fault([
                 (pose.is_in_range(), OUT_OF_RANGE),
                 (positive(*width) && positive(*depth), "needs a width and a depth above 0"),
-            ]),
-            Item::Circle { center, radius } => first_fault([
+            ])
+            .or_else(|| traits.fault(false, width.min(*depth))),
+            Item::Circle { center, radius, traits } => first_fault([
                 (in_range(&[*center]), OUT_OF_RANGE),
                 (positive(*radius), "needs a radius above 0"),
-            ]),
+            ])
+            .or_else(|| traits.fault(true, 2.0 * radius)),
             Item::Patch { corners, .. } => first_fault([
                 (in_range(corners), OUT_OF_RANGE),
                 (corners.len() >= 3, "needs at least three corners"),

@@ -135,7 +135,7 @@ fn is_known(character: char) -> bool {
 fn item(character: char, cell: Cell, size: f64) -> Option<Item> {
     let center = corner(cell, 0.5, size);
     match character {
-        'O' => Some(Item::Circle { center, radius: size * 0.4 }),
+        'O' => Some(Item::circle(center, size * 0.4)),
         'L' => Some(Item::Lamp { at: center, intensity: LAMP_INTENSITY }),
         other => {
             let color = floor_color(other)?;
@@ -191,15 +191,11 @@ fn add_walls(items: &mut Vec<Item>, mut rows: Vec<Vec<char>>, size: f64) {
             }
             let low = corner([column, height - below], 0.0, size);
             let high = corner([end, height - row], 0.0, size);
-            items.push(Item::Box {
-                pose: Pose::new(
-                    f64::midpoint(low[0], high[0]),
-                    f64::midpoint(low[1], high[1]),
-                    0.0,
-                ),
-                width: high[0] - low[0],
-                depth: high[1] - low[1],
-            });
+            items.push(Item::boxed(
+                Pose::new(f64::midpoint(low[0], high[0]), f64::midpoint(low[1], high[1]), 0.0),
+                high[0] - low[0],
+                high[1] - low[1],
+            ));
         }
     }
 }
@@ -215,8 +211,8 @@ mod tests {
         assert_eq!(boxes, 4);
         assert_eq!(world.start, Pose::new(50.0, 50.0, 90.0));
         assert!(world.items.contains(&Item::Lamp { at: [50.0, 30.0], intensity: LAMP_INTENSITY }));
-        let left = Item::Box { pose: Pose::new(10.0, 40.0, 0.0), width: 20.0, depth: 40.0 };
-        let top = Item::Box { pose: Pose::new(50.0, 70.0, 0.0), width: 100.0, depth: 20.0 };
+        let left = Item::boxed(Pose::new(10.0, 40.0, 0.0), 20.0, 40.0);
+        let top = Item::boxed(Pose::new(50.0, 70.0, 0.0), 100.0, 20.0);
         assert!(world.items.contains(&top), "{:?}", world.items);
         assert!(!world.items.contains(&left), "the left column goes down to the floor");
     }

@@ -9,9 +9,11 @@ mod map;
 pub(crate) mod obstacle;
 pub(crate) mod scene;
 mod spec;
+mod traits;
 
 pub use hull::Hull;
 pub(crate) use item::THINGS;
 pub use item::{Item, ItemId, Part, Shape, SpecError};
 pub use map::{Cell, Drawing, Drawn};
 pub use spec::{WorldSpec, check_bounds};
+pub use traits::Traits;

@@ -6,10 +6,13 @@ use parry2d_f64::query::{self, PointQuery, Ray, RayCast};
 use parry2d_f64::shape::{Ball, Cuboid, Segment, Shape};
 
 use crate::world::Hull;
-use crate::world::{Item, ItemId, Shape as Outline};
+use crate::world::{Item, ItemId, Shape as Outline, Traits};
 
 /// How thick the walls of the bounds are.
 const BOUND_THICKNESS: f64 = 10.0;
+
+/// Farther than this, in cm, a rough distance will do.
+const FAR: f64 = 10.0;
 
 #[derive(Clone, Copy, Debug)]
 enum Solid {
@@ -25,6 +28,8 @@ pub(crate) struct Obstacle {
     frame: Frame,
     /// The largest distance of a point of it from its center.
     reach: f64,
+    /// Sound and light go over it.
+    is_low: bool,
 }
 
 /// A place where a hull is at, or near, an obstacle.
@@ -37,6 +42,8 @@ pub(crate) struct Contact {
     pub(crate) normal: Vec2,
     /// The point of the hull.
     pub(crate) point: Vec2,
+    /// The number of this point among those at which they may touch; it stays the same.
+    pub(crate) corner: u32,
 }
 
 impl Contact {
@@ -49,6 +56,11 @@ impl Contact {
 impl Obstacle {
     /// The solid form of an item, if it has one.
     pub(crate) fn new(id: ItemId, item: &Item) -> Option<Obstacle> {
+        let is_low = item.traits().is_some_and(Traits::is_low);
+        Obstacle::of_shape(id, item).map(|obstacle| obstacle.that_is_low(is_low))
+    }
+
+    fn of_shape(id: ItemId, item: &Item) -> Option<Obstacle> {
         match item.shape() {
             Outline::Bar { from: [x1, y1], to: [x2, y2], thickness } => {
                 let way = Vec2::new(x2 - x1, y2 - y1);
@@ -65,6 +77,7 @@ impl Obstacle {
                 solid: Solid::Ball(Ball::new(radius)),
                 frame: frame(Vec2::new(x, y), 1.0, 0.0),
                 reach: radius,
+                is_low: false,
             }),
             Outline::Area { .. } | Outline::Band { .. } | Outline::Mark { .. } => None,
         }
@@ -82,13 +95,25 @@ impl Obstacle {
                 solid: Solid::Ball(Ball::new(hull.reach())),
                 frame: pose.frame(),
                 reach: hull.reach(),
+                is_low: false,
             },
         }
     }
 
     fn cuboid(id: ItemId, frame: Frame, half_x: f64, half_y: f64) -> Obstacle {
         let half = Vec2::new(half_x, half_y);
-        Obstacle { id, solid: Solid::Box(Cuboid::new(half)), frame, reach: length(half) }
+        Obstacle {
+            id,
+            solid: Solid::Box(Cuboid::new(half)),
+            frame,
+            reach: length(half),
+            is_low: false,
+        }
+    }
+
+    /// The same where sound and light go over it, or do not.
+    pub(crate) fn that_is_low(self, is_low: bool) -> Obstacle {
+        Obstacle { is_low, ..self }
     }
 
     /// The four walls around the bounds: left, right, below, above.
@@ -119,7 +144,7 @@ impl Obstacle {
     pub(crate) fn cast(&self, ray: &Ray, max: f64) -> Option<f64> {
         let offset = self.frame.translation.vector - ray.origin.coords;
         let aside = ray.dir.x * offset.y - ray.dir.y * offset.x;
-        if aside.abs() > self.reach {
+        if aside.abs() > self.reach || self.is_low {
             return None;
         }
         match &self.solid {
@@ -130,6 +155,9 @@ impl Obstacle {
 
     /// As [`cast`](Self::cast), with the surface's normal.
     pub(crate) fn surface(&self, ray: &Ray, max: f64) -> Option<(f64, Vec2)> {
+        if self.is_low {
+            return None;
+        }
         let hit = self.shape().cast_ray_and_get_normal(&self.frame, ray, max, true)?;
         Some((hit.time_of_impact, hit.normal))
     }
@@ -151,18 +179,29 @@ impl Obstacle {
     pub(crate) fn outline(&self) -> Item {
         let place = self.frame.translation.vector;
         match &self.solid {
-            Solid::Ball(ball) => Item::Circle { center: [place.x, place.y], radius: ball.radius },
-            Solid::Box(Cuboid { half_extents: half }) => Item::Box {
-                pose: Pose::new(place.x, place.y, -self.frame.rotation.angle().to_degrees()),
-                width: 2.0 * half.x,
-                depth: 2.0 * half.y,
-            },
+            Solid::Ball(ball) => Item::circle([place.x, place.y], ball.radius),
+            Solid::Box(Cuboid { half_extents: half }) => {
+                let heading = -self.frame.rotation.angle().to_degrees();
+                Item::boxed(Pose::new(place.x, place.y, heading), 2.0 * half.x, 2.0 * half.y)
+            }
         }
     }
 
     /// Not farther than this obstacle is from a circle: cheap.
     pub(crate) fn at_least(&self, center: Vec2, radius: f64) -> f64 {
         length(self.frame.translation.vector - center) - self.reach - radius
+    }
+
+    /// How far a hull is from it, in cm; below 0 where they overlap. It may be less than that if it
+    /// is far.
+    pub(crate) fn gap(&self, hull: Hull, pose: &Pose) -> f64 {
+        let rough = self.at_least(pose.vec2(), hull.reach());
+        if rough > FAR {
+            return rough;
+        }
+        let mut gap = f64::INFINITY;
+        self.touch_points(hull, &pose.frame(), 0, |contact| gap = gap.min(contact.gap));
+        gap
     }
 
     /// True if it overlaps a hull.
@@ -191,15 +230,20 @@ impl Obstacle {
                 .is_ok_and(|gap| gap <= distance)
     }
 
-    /// The points at which a hull may touch this, each as gap, direction away, and the hull's
-    /// point. The nearest points of two convex outlines always include a corner of one of them,
-    /// so it is enough to look at the corners.
+    /// The points at which a hull may touch this; the first one is that corner. The nearest points
+    /// of two convex outlines always include a corner of one of them, so it is enough to look at
+    /// the corners.
     pub(crate) fn touch_points(
         &self,
         hull: Hull,
         frame: &Frame,
-        mut found: impl FnMut(f64, Vec2, Vec2),
+        mut corner: u32,
+        mut each: impl FnMut(Contact),
     ) {
+        let mut found = |gap, normal, point| {
+            each(Contact { id: self.id, gap, normal, point, corner });
+            corner += 1;
+        };
         let middle = frame.translation.vector;
         let center = self.frame.translation.vector;
         match (hull_box(hull, frame), &self.solid) {

@@ -13,16 +13,23 @@ use crate::world::obstacle::{Contact, Obstacle};
 use crate::world::{Item, ItemId, SpecError, WorldSpec};
 
 const BOUNDS: ItemId = ItemId(0);
+/// Two boxes may touch at the corners of both.
+const MOST_CORNERS: usize = 8;
 
-/// The other robots of a world, as obstacles.
+/// The other robots of a world, and the things that move, as obstacles.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Others<'a> {
     pub(crate) before: &'a [Obstacle],
     pub(crate) after: &'a [Obstacle],
+    pub(crate) things: &'a [Obstacle],
 }
 
 impl<'a> Others<'a> {
     pub(crate) fn iter(self) -> impl Iterator<Item = &'a Obstacle> {
+        self.robots().chain(self.things)
+    }
+
+    pub(crate) fn robots(self) -> impl Iterator<Item = &'a Obstacle> {
         self.before.iter().chain(self.after)
     }
 }
@@ -44,6 +51,11 @@ pub(crate) struct Scene {
     /// What is held down on each channel of remote controls.
     pub(crate) remotes: [Remote; CHANNELS],
     next_id: u32,
+}
+
+/// The obstacle that an item is, if it stands fast. The scene has no obstacles that move.
+fn fixed(id: ItemId, item: &Item) -> Option<Obstacle> {
+    if item.movable().is_some() { None } else { Obstacle::new(id, item) }
 }
 
 impl Scene {
@@ -75,7 +87,7 @@ impl Scene {
         item.validate()?;
         let id = ItemId(self.next_id);
         self.next_id += 1;
-        self.obstacles.extend(Obstacle::new(id, &item));
+        self.obstacles.extend(fixed(id, &item));
         self.items.push((id, item));
         Ok(id)
     }
@@ -99,7 +111,7 @@ impl Scene {
         let place = self.obstacles.iter().position(|obstacle| obstacle.id == id);
         self.obstacles.retain(|obstacle| obstacle.id != id);
         let place = place.unwrap_or(self.obstacles.len());
-        let obstacles: Vec<_> = Obstacle::new(id, &item).into_iter().collect();
+        let obstacles: Vec<_> = fixed(id, &item).into_iter().collect();
         self.obstacles.splice(place..place, obstacles);
         // The world is another one.
         self.next_id += 1;
@@ -240,16 +252,16 @@ impl Scene {
         contacts.clear();
         let reach = hull.reach();
         let mut free = f64::INFINITY;
-        for obstacle in &self.obstacles {
+        for (corners, obstacle) in (0..).step_by(MOST_CORNERS).zip(&self.obstacles) {
             let rough = obstacle.at_least(frame.translation.vector, reach);
             if rough > free.min(20.0).max(margin) {
                 free = free.min(rough);
                 continue;
             }
-            obstacle.touch_points(hull, frame, |gap, normal, point| {
-                free = free.min(gap);
-                if gap < margin {
-                    contacts.push(Contact { id: obstacle.id, gap, normal, point });
+            obstacle.touch_points(hull, frame, corners, |contact| {
+                free = free.min(contact.gap);
+                if contact.gap < margin {
+                    contacts.push(contact);
                 }
             });
         }
@@ -260,12 +272,6 @@ impl Scene {
     pub(crate) fn overlap(&self, hull: Hull, pose: &Pose) -> Option<ItemId> {
         let mut obstacles = self.obstacles.iter();
         obstacles.find(|obstacle| obstacle.overlaps(hull, pose)).map(|obstacle| obstacle.id)
-    }
-
-    /// True if an item overlaps a robot.
-    pub(crate) fn is_at(&self, id: ItemId, others: Others) -> bool {
-        let mut obstacles = self.obstacles.iter().filter(|obstacle| obstacle.id == id);
-        obstacles.any(|obstacle| others.iter().any(|other| obstacle.meets(other)))
     }
 
     /// True if an obstacle is within `distance` of a straight bumper.
@@ -290,10 +296,10 @@ mod tests {
             assert!((distance - expected).abs() < 1e-9, "{distance}");
         };
         near(99.5, &scene);
-        scene.add(Item::Circle { center: [0.0, 80.0], radius: 5.0 }).unwrap();
+        scene.add(Item::circle([0.0, 80.0], 5.0)).unwrap();
         near(75.0, &scene);
         let pose = Pose::new(0.0, 50.0, 45.0);
-        let diamond = scene.add(Item::Box { pose, width: 10.0, depth: 10.0 }).unwrap();
+        let diamond = scene.add(Item::boxed(pose, 10.0, 10.0)).unwrap();
         near(50.0 - 50.0_f64.sqrt(), &scene);
         assert!(!scene.clear_between(Others::default(), Vec2::zeros(), Vec2::new(0.0, 60.0)));
         assert!(scene.remove(diamond) && scene.remove(wall) && !scene.remove(wall));
@@ -317,7 +323,7 @@ mod tests {
     #[test]
     fn impossible_items_are_named() {
         let mut scene = Scene::new(&WorldSpec::default()).unwrap();
-        let error = scene.add(Item::Circle { center: [0.0, 0.0], radius: -1.0 }).unwrap_err();
+        let error = scene.add(Item::circle([0.0, 0.0], -1.0)).unwrap_err();
         assert!(error.to_string().starts_with("circle"), "{error}");
         assert!(scene.add(Item::wall([1.0, 1.0], [1.0, 1.0])).is_err());
         assert!(scene.add(Item::Lamp { at: [f64::NAN, 0.0], intensity: 1.0 }).is_err());

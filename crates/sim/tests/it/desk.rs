@@ -12,13 +12,12 @@ pub(crate) const C: &str = "tacho-motor/motor2/";
 /// A room of 300 by 240 cm with two boxes and a pillar, for these tests only: worlds for programs
 /// are files of facts. The robot starts in a free corner.
 pub(crate) fn furnished() -> WorldSpec {
-    let boxed =
-        |x, y, heading, width, depth| Item::Box { pose: Pose::new(x, y, heading), width, depth };
+    let boxed = |x, y, heading, width, depth| Item::boxed(Pose::new(x, y, heading), width, depth);
     WorldSpec {
         items: vec![
             boxed(70.0, 155.0, 20.0, 40.0, 30.0),
             boxed(215.0, 80.0, -15.0, 30.0, 45.0),
-            Item::Circle { center: [190.0, 185.0], radius: 10.0 },
+            Item::circle([190.0, 185.0], 10.0),
         ],
         bounds: Some(Bounds { low: [0.0, 0.0], high: [300.0, 240.0] }),
         start: Pose::new(60.0, 50.0, 0.0),

@@ -5,7 +5,7 @@ use ev3_sim::{Machine, Options};
 use std::fmt::Write;
 
 /// FNV-1a: small, and the same everywhere.
-fn digest(bytes: &[u8]) -> u64 {
+pub(crate) fn digest(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
     })

@@ -18,5 +18,6 @@ mod robots;
 mod sensors;
 mod servos;
 mod shown;
+mod things;
 mod walls;
 mod world;

@@ -364,7 +364,7 @@ fn a_beacon_is_seen_where_it_is() {
     desk.0.place(Pose::new(0.0, 0.0, 180.0)).unwrap();
     assert_eq!(values(&mut desk, "IR-SEEK")[..2], [0, -128], "behind it");
     desk.0.place(Pose::new(0.0, 0.0, 0.0)).unwrap();
-    desk.0.add_item(Item::Circle { center: [0.0, 70.0], radius: 5.0 }).unwrap();
+    desk.0.add_item(Item::circle([0.0, 70.0], 5.0)).unwrap();
     assert_eq!(values(&mut desk, "IR-SEEK")[..2], [0, -128], "hidden");
     let far = values(&mut self::desk("lego-ev3-ir", vec![beacon(0.0, 210.0, 2)]), "IR-SEEK");
     assert_eq!(far, [0, -128, 0, -128, 0, -128, 0, -128]);

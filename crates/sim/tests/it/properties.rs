@@ -157,7 +157,7 @@ proptest! {
         rectangle in any::<bool>(),
     ) {
         let items = boxes.into_iter().map(|(x, y, heading, size)| {
-            Item::Box { pose: Pose::new(x, y, heading), width: size, depth: size / 2.0 }
+            Item::boxed(Pose::new(x, y, heading), size, size / 2.0)
         });
         let rectangular = Hull::Rectangle { width: 13.0, length: 19.0, offset: 2.0 };
         let hull = if rectangle { rectangular } else { Hull::Circle { radius: 8.0 } };

@@ -37,7 +37,7 @@ fn the_sonar_measures_the_nearest_thing_in_its_cone() {
         Desk::with(&world(vec![Item::wall([-100.0, 100.0], [100.0, 100.0])]), &default_robot());
     // The sensor sits 7 cm ahead of the axle; the wall's near face is at 99.5 cm.
     assert_eq!(value(&mut desk, SONAR, 0), 925);
-    let pillar = desk.0.add_item(Item::Circle { center: [5.0, 60.0], radius: 3.0 }).unwrap();
+    let pillar = desk.0.add_item(Item::circle([5.0, 60.0], 3.0)).unwrap();
     desk.step(2);
     let pillar_at = value(&mut desk, SONAR, 0);
     assert!((498..=506).contains(&pillar_at), "{pillar_at}");
@@ -112,7 +112,7 @@ fn lamps_fall_off_with_the_square_and_throw_shadows() {
     let dark = WorldSpec { ambient: 0.0, ..WorldSpec::default() };
     let read = |distance: f64, heading: f64, box_at: Option<f64>| {
         let mut items = vec![Item::Lamp { at: [0.0, distance], intensity: 12.0 }];
-        items.extend(box_at.map(|y| Item::Circle { center: [0.0, y], radius: 3.0 }));
+        items.extend(box_at.map(|y| Item::circle([0.0, y], 3.0)));
         let mut desk = Desk::with(&WorldSpec { items, ..dark.clone() }, &robot);
         desk.0.place(Pose::new(0.0, 0.0, heading)).unwrap();
         mode(&mut desk, LEFT, "COL-AMBIENT");

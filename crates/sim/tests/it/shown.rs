@@ -114,7 +114,7 @@ fn the_world_has_a_version() {
     let mut machine = machine();
     let versions = |machine: &Machine| machine.world_version();
     let first = versions(&machine);
-    let id = machine.add_item(Item::Circle { center: [20.0, 20.0], radius: 5.0 }).unwrap();
+    let id = machine.add_item(Item::circle([20.0, 20.0], 5.0)).unwrap();
     let second = versions(&machine);
     assert!(machine.move_item(id, [30.0, 20.0], None).unwrap());
     let third = versions(&machine);
@@ -126,13 +126,15 @@ fn the_world_has_a_version() {
 #[test]
 fn things_move_but_not_into_the_robot() {
     let mut machine = machine();
-    let id = machine.add_item(Item::Circle { center: [150.0, 20.0], radius: 5.0 }).unwrap();
+    let id = machine.add_item(Item::circle([150.0, 20.0], 5.0)).unwrap();
     assert!(machine.move_item(id, [160.0, 30.0], Some(5.0)).unwrap());
-    let at = |machine: &Machine| machine.items().iter().find(|(other, _)| *other == id).cloned();
-    assert_eq!(at(&machine).unwrap().1, Item::Circle { center: [160.0, 30.0], radius: 5.0 });
+    let at = |machine: &Machine| {
+        machine.items().find(|(other, _)| *other == id).map(|(_, item)| item.into_owned())
+    };
+    assert_eq!(at(&machine).unwrap(), Item::circle([160.0, 30.0], 5.0));
     let error = machine.move_item(id, [60.0, 50.0], None).unwrap_err();
     assert!(error.to_string().ends_with("is where the robot stands"), "{error}");
-    assert_eq!(at(&machine).unwrap().1, Item::Circle { center: [160.0, 30.0], radius: 5.0 });
+    assert_eq!(at(&machine).unwrap(), Item::circle([160.0, 30.0], 5.0));
     machine.remove_item(id);
     assert!(!machine.move_item(id, [0.0, 0.0], None).unwrap());
 }

@@ -107,7 +107,7 @@ struct Room {
 fn rooms(largest: f64) -> impl Strategy<Value = Room> {
     let place = || (-65.0..65.0f64, -65.0..65.0f64);
     let boxes = (place(), 0.0..180.0f64, 3.0..30.0f64).prop_map(|((x, y), heading, size)| {
-        Item::Box { pose: Pose::new(x, y, heading), width: size, depth: size / 2.0 }
+        Item::boxed(Pose::new(x, y, heading), size, size / 2.0)
     });
     let walls = (place(), 0.0..360.0f64, 0.1..100.0f64, 0.001..1.0f64).prop_map(
         |((x, y), heading, length, thickness)| {
@@ -115,8 +115,7 @@ fn rooms(largest: f64) -> impl Strategy<Value = Room> {
             Item::Wall { from: [x, y], to: [x + sin * length, y + cos * length], thickness }
         },
     );
-    let pillars =
-        (place(), 0.5..8.0f64).prop_map(|((x, y), radius)| Item::Circle { center: [x, y], radius });
+    let pillars = (place(), 0.5..8.0f64).prop_map(|((x, y), radius)| Item::circle([x, y], radius));
     let hull = prop_oneof![
         Just(Hull::Circle { radius: 8.0 }),
         Just(Hull::Rectangle { width: 13.0, length: 19.0, offset: 2.0 }),

@@ -4,7 +4,7 @@ use crate::robots::{default_robot, wheels, with_axle};
 use ev3_sim::facts::{Fact, Form, Kind, Subject, Value, culprit};
 use ev3_sim::{
     Action, Bounds, Drawing, Hull, Item, ItemId, Machine, MotorMount, Options, Port, Pose,
-    RobotSpec, WorldSpec,
+    RobotSpec, Traits, WorldSpec,
 };
 
 #[test]
@@ -14,7 +14,7 @@ fn impossible_worlds_and_robots_are_named() {
     };
     let robot = default_robot();
     let mut world = furnished();
-    world.items.push(Item::Circle { center: [0.0, 0.0], radius: 0.0 });
+    world.items.push(Item::circle([0.0, 0.0], 0.0));
     assert!(build(&world, &robot).contains("needs a radius"), "{}", build(&world, &robot));
     let world = WorldSpec {
         bounds: Some(Bounds { low: [10.0, 0.0], high: [0.0, 10.0] }),
@@ -81,7 +81,7 @@ fn numbers_are_within_10_km() {
 
 #[test]
 fn errors_are_put_to_the_fact_that_is_to_blame() {
-    let circle = |x: f64| Fact::Item(Item::Circle { center: [x, 0.0], radius: 3.0 });
+    let circle = |x: f64| Fact::Item(Item::circle([x, 0.0], 3.0));
     let drawn = Fact::Map(Drawing::read(&["#.", ".#"]).unwrap().drawn(20.0).unwrap());
     let start = |x: f64| Fact::Start(Pose::new(x, 0.0, 0.0));
     let blamed = |facts: &[Fact]| {
@@ -101,7 +101,7 @@ fn errors_are_put_to_the_fact_that_is_to_blame() {
         "a drawing without a start sets none"
     );
     assert_eq!(blamed(&[start(0.0), Fact::Ambient(1.0), Fact::Ambient(-1.0)]), Some(2));
-    let tiny = Fact::Item(Item::Circle { center: [0.0, 90.0], radius: 0.0 });
+    let tiny = Fact::Item(Item::circle([0.0, 90.0], 0.0));
     assert_eq!(blamed(&[circle(50.0), drawn, tiny]), Some(2), "items of a drawing count");
 
     let motor = |port| {
@@ -127,6 +127,7 @@ fn argument(place: u8, kind: Kind) -> Value {
         Kind::Places => Value::Places(vec![[0.0, 0.0], [9.0, 0.0], [9.0, -9.0]]),
         Kind::Rows => Value::Rows(vec!["#.".to_owned()]),
         Kind::Hull => Value::Hull(Hull::Circle { radius: 1.0 }),
+        Kind::Traits => Value::Traits(Traits { mass: Some(0.05), ..Traits::default() }),
         Kind::WheelOptions => Value::WheelOptions { inverted: true, slip: 0.1 },
         Kind::MotorOptions => Value::MotorOptions(Some([-1.0, 1.0])),
         Kind::EchoOptions => Value::EchoOptions(ev3_sim::Echo::default()),
@@ -171,9 +172,9 @@ fn each_form_is_read_and_each_thing_is_saved_as_a_fact_of_its_form() {
 #[test]
 fn items_come_and_go_but_not_onto_the_robot() {
     let mut desk = Desk::new();
-    let on_top = Item::Box { pose: Pose::new(5.0, 5.0, 0.0), width: 4.0, depth: 4.0 };
+    let on_top = Item::boxed(Pose::new(5.0, 5.0, 0.0), 4.0, 4.0);
     assert!(desk.0.add_item(on_top.clone()).is_err());
-    assert!(desk.0.items().is_empty());
+    assert_eq!(desk.0.items().count(), 0);
     desk.0.place(Pose::new(50.0, 50.0, 0.0)).unwrap();
     let id = desk.0.add_item(on_top).unwrap();
     let error = desk.0.place(Pose::default()).unwrap_err();

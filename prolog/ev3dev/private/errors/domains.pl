@@ -143,4 +143,7 @@ allowed(localize_start,
         [ unknown, pose('X', 'Y', 'Heading'),
           pose('X', 'Y', 'Heading', 'Sigma') ]).
 allowed(mounting_option,    [stops('Min', 'Max')]).
+allowed(thing_option,
+        [ mass('Kg'), friction('Share'), height('Cm'), rolls('Boolean'),
+          bounces('Share'), color('Color'), name('Name') ]).
 allowed(wheel_option,       [inverted('Boolean'), slip('Share')]).
