@@ -54,7 +54,7 @@ task('Ask sensors',
 task('Use the brick itself',
      [lights, buttons, sound, screen, console, battery, ports, time, compile]).
 task('See what is connected', [device_table, driver, files]).
-task('Ask why it did that', [journal]).
+task('Ask why it did that', [journal, reasoning]).
 task('Try it without a robot',
      [sim, sim_hand, sim_time, sim_views, sim_batch, sim_fenced]).
 task('Teach', [exercise, random_worlds]).

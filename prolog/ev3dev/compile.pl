@@ -79,6 +79,7 @@ unit(golog, ['ev3dev/golog']).
 unit(golog_classic, ['ev3dev/golog_classic']).
 unit(pddl, ['ev3dev/pddl']).
 unit(journal, ['ev3dev/journal']).
+unit(reasoning, ['ev3dev/reasoning']).
 unit(view, ['ev3dev/view']).
 
 pack_file(Name, File) :-

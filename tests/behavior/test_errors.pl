@@ -11,6 +11,7 @@
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/jog)).
 :- use_module(library(ev3dev/journal)).
+:- use_module(library(ev3dev/reasoning)).
 :- use_module(library(ev3dev/plnxt)).
 :- use_module(library(ev3dev/raw)).
 :- use_module(library(ev3dev/planners)).
@@ -57,6 +58,9 @@ bad(because(true, why), [7-1, _-1, _-2]).
 bad(why(outB), [7-1, _-1]).
 bad(why(outB, _), [7-1, _-1]).
 bad(journal(_), [7-1, f(x)-1]).
+bad(reasoning(true), [7-1, _-1]).
+bad(reasoning(true, []), [7-1, _-1, [megabyte(1)]-2, [megabytes(0)]-2]).
+bad(reasoning_text(_), [7-1, f(x)-1]).
 bad(journal_replay(nowhere), [7-1, _-1, nowhere-1]).
 bad(screen_format("~w", [a]), [_-1]).
 bad(calibrate(axle, [], _), [all-1, _-1, [turn(5)]-2, [turns(0)]-2]).

@@ -19,11 +19,26 @@ for it.
 %!  goal_of_program(:Goal) is nondet.
 %
 %   Call a Goal of the program. Its errors name the predicate that Goal
-%   called, and not the one that calls Goal.
+%   called, and not the one that calls Goal. While library(ev3dev/reasoning)
+%   records the program, it records Goal, too.
 
 goal_of_program(Goal) :-
-    call(Goal),
+    (   nb_current(ev3dev_reasoning, Node),
+        Node \== []
+    ->  recorded(Node, Goal)
+    ;   call(Goal)
+    ),
     true.
+
+%   What calls a goal of the program: no walk goes on beyond it. The recorder
+%   adds its own.
+
+:- multifile
+    recorded/2,                         % Node, Goal
+    calls_program/1.                    % Indicator
+:- dynamic recorded/2.
+
+calls_program(goal_of_program/1).       % of this module
 
 %!  called_by_program(-Frame, -Called) is semidet.
 %
@@ -39,7 +54,7 @@ called_by_program(Frame, Called) :-
 
 called(Frame, Called0, Called) :-
     prolog_frame_attribute(Frame, predicate_indicator, Indicator),
-    (   Indicator == goal_of_program/1  % of this module
+    (   calls_program(Indicator)
     ->  Called = Called0
     ;   in_pack(Indicator, Module, Predicate)
     ->  (   is_public(Module, Predicate)
@@ -77,7 +92,7 @@ is_inner(Frame) :-
 
 is_inside(Frame) :-
     prolog_frame_attribute(Frame, predicate_indicator, Indicator),
-    (   Indicator == goal_of_program/1
+    (   calls_program(Indicator)
     ->  fail
     ;   in_pack(Indicator, _, _)
     ->  true

@@ -107,5 +107,7 @@ words_for([behavior, rule, subsumption, state], [behave, set_state, become]).
 words_for([loop, repeat, forever, endless, periodic],
           [every, run_forever, behave]).
 words_for([log, history, record, explain, debug],
-          [why, journal, view_mark, because]).
+          [why, journal, reasoning, view_mark, because]).
+words_for([backtrack, backtracking, choice, trace, cut, think, fail, false],
+          [reasoning, reasoning_text]).
 words_for([undo, reset, save, load], [sim_snapshot, sim_restore]).

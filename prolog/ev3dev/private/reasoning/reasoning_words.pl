@@ -1,0 +1,166 @@
+:- module(ev3dev_reasoning_words,
+          [ reasoning_lines/1           % -Lines
+          ]).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module(library(lists), [member/2]).
+:- use_module('../basics/fields',
+              [fields/1, goal_expansion/2, term_expansion/2]).
+:- use_module('../basics/small_lists', [and_list/2]).
+:- use_module(outline, [episodes/1, outline/2]).
+:- use_module(recorder, [lost/1, moment/4]).
+:- use_module(why_false, [clause_words/2, goal_words/2, why_false/2]).
+
+/** <module> The outline of a recorded run in words
+*/
+
+width(78).
+
+%!  reasoning_lines(-Lines) is det.
+%
+%   Lines are the rows of the outline, what is missing, and why the goal is
+%   false. A line has at most 78 characters, unless one goal alone is longer.
+
+reasoning_lines(Lines) :-
+    episodes(Episodes),
+    outline(Episodes, Rows),
+    findall(Line, line(Rows, Episodes, Line), Lines).
+
+line(Rows, _, Line) :-
+    row_line(Rows, 0, Line).
+line(_, _, Line) :-
+    lost(Count),
+    format(string(Line), '~D events in the middle are lost: the record was \c
+                          full.', [Count]).
+line(_, Episodes, Line) :-
+    why_false(Episodes, Sentences),
+    (   Line = ""
+    ;   atomic_list_concat(Sentences, ' ', Text),
+        wrapped(Text, Line)
+    ).
+
+row_line(Rows, Depth, Line) :-
+    member(Row, Rows),
+    Row = row(what: What, goal: Goal, state: State, clause: Clause,
+              note: Note, from: From, below: Below),
+    (   time_words(From, Time),
+        mark(What, State, Mark),
+        once(what(What, Goal, Clause, Text)),
+        findall(Remark,
+                (   way_remark(What, State, Remark)
+                ;   What \== clause,
+                    clause_words(Clause, Remark)
+                ;   What == goal,
+                    state_remark(State, Below, Remark)
+                ;   note_remark(Note, Remark)
+                ),
+                Remarks),
+        Indent is 2*min(Depth, 20),
+        format(string(Begin), '~w ~*c~w ~w', [Time, Indent, 0' , Mark, Text]),
+        laid_out(Begin, Remarks, Line)
+    ;   Depth1 is Depth+1,
+        row_line(Below, Depth1, Line)
+    ).
+
+time_words(Moment, Text) :-
+    (   moment(Moment, Time, _, _)
+    ->  format(string(Text), '~t~2f~7|', [Time])
+    ;   Text = "       "
+    ).
+
+mark(What, State, Mark) :-
+    (   What = ways(_)
+    ->  Mark = ?
+    ;   What = same(_)
+    ->  Mark = ' '
+    ;   What == cut
+    ->  Mark = !
+    ;   memberchk(State-Mark, [true-(+), open-(+), running-(*)])
+    ->  true
+    ;   Mark = (-)
+    ).
+
+what(way(Number), Goal, _, Text) :-
+    goal_words(Goal, Words),
+    format(string(Text), '~d. ~w', [Number, Words]).
+what(no_more, Goal, _, Text) :-
+    goal_words(Goal, Words),
+    format(string(Text), 'no more answers of ~w', [Words]).
+what(clause, _, Clause, Text) :-
+    (   clause_words(Clause, Text)
+    ->  true
+    ;   Text = "the same clause again"
+    ).
+what(same(Count), _, _, Text) :-
+    format(string(Text), '... ~D more that do the same', [Count]).
+what(deep, Depth, _, Text) :-
+    format(string(Text), 'deeper than ~D calls: not recorded', [Depth]).
+what(cut, Goals, _, Text) :-
+    (   Goals == []
+    ->  Text = "the cut drops the clauses that follow"
+    ;   findall(Words,
+                ( member(Goal, Goals), goal_words(Goal, Words) ),
+                All0),
+        sort(All0, All),
+        and_list(All, Listed),
+        format(string(Text), 'the cut drops more answers of ~w', [Listed])
+    ).
+what(_, Goal, _, Text) :-
+    goal_words(Goal, Text).
+
+way_remark(ways(Count), State, Text) :-
+    (   State == false
+    ->  format(string(Text), '~d ways, all given up', [Count])
+    ;   format(string(Text), '~d ways', [Count])
+    ).
+
+state_remark(false, [_|_], "fails").
+state_remark(error(Ball), _, Text) :-
+    goal_words(Ball, Words),
+    format(string(Text), 'throws ~w', [Words]).
+state_remark(left, _, "is left").
+state_remark(running, _, "runs").
+state_remark(open, _, "may have more answers").
+
+note_remark(given_up(Goal), Text) :-
+    goal_words(Goal, Words),
+    format(string(Text), 'given up: ~w', [Words]).
+note_remark(moved(Seconds), Text) :-
+    format(string(Text), 'moved ~1f s, stays done', [Seconds]).
+note_remark(commanded, "stays done").
+
+%   The remarks are at the right, or on the next line.
+
+laid_out(Begin, [], Line) :-
+    !,
+    Line = Begin.
+laid_out(Begin, Remarks, Line) :-
+    atomic_list_concat(Remarks, ', ', Text),
+    string_length(Begin, Length1),
+    string_length(Text, Length2),
+    width(Width),
+    (   Length1+2+Length2 =< Width
+    ->  format(string(Line), '~w~t~w~*|', [Begin, Text, Width])
+    ;   (   Line = Begin
+        ;   format(string(Line), '~t~w~*|', [Text, Width])
+        )
+    ).
+
+wrapped(Text, Line) :-
+    split_string(Text, " ", "", Words),
+    filled(Words, "", Lines),
+    member(Line, Lines).
+
+filled([], Line, [Line]).
+filled([Word|Words], Line0, Lines) :-
+    (   Line0 == ""
+    ->  filled(Words, Word, Lines)
+    ;   string_concat(Line0, " ", Line1),
+        string_concat(Line1, Word, Line),
+        string_length(Line, Length),
+        width(Width),
+        (   Length =< Width
+        ->  filled(Words, Line, Lines)
+        ;   Lines = [Line0|Lines1],
+            filled(Words, Word, Lines1)
+        )
+    ).
