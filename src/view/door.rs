@@ -24,7 +24,8 @@ const MADE: [Made; 1] = [Made {
 
 natives! {
     /// view_serve_(+Address, +Port, +Token, +Files, -Served): serves the page, with the files of a
-    /// folder, at a port; 0 is any. Served is the port, or a text that says why not.
+    /// folder, at a port; 0 is any. Served is the port, or a text that says why not. If Token is
+    /// empty, everybody may read the folder.
     semidet fn "view_serve_"(context, address, port, token, files, served) as call("view", 1) {
         let owned = |term: &Term| call.text(term).map(Text::into_owned);
         let any = call.text(address)? == "any";

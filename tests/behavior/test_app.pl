@@ -287,8 +287,9 @@ without_view(Typed, Line) :-
 
 %   An installed pack has no Makefile.
 
-:- begin_tests(app_playground, [condition(exists_source(library(http/http_files)))]).
+:- begin_tests(app_playground, [condition(exists_source(library(http/http_open)))]).
 :- use_module(library(http/http_open)).
+:- use_module(library(socket)).
 
 test(a_folder_without_one) :-
     app("playground tests", 2, Output),
@@ -298,13 +299,40 @@ test(its_files_are_served_and_no_other,
     tmp_file(playground, Folder),
     setup_call_cleanup(
         ( make_directory(Folder),
-          written(Folder, 'parts.bin', ""),
+          length(Parts, 1000000),
+          maplist(=(0'p), Parts),
+          string_codes(All, Parts),
+          written(Folder, 'parts.bin', All),
+          written(Folder, '.hidden', ""),
+          directory_file_path(Folder, view, View),
+          make_directory(View),
+          written(View, 'index.html', "<p>There."),
           written(Folder, 'index.html', "<p>Here.") ),
         with_playground(Folder, Url,
             ( got(Url, '', 200, Type, Index),
-              findall(Path, ( member(Path, ['none.js', '../secret', 'view/']),
+              got(Url, 'view/', 200, Type, "<p>There."),
+              got(Url, 'parts.bin', 200, 'application/octet-stream', All),
+              findall(Path, ( member(Path, ['none.js', '../secret', 'none/', view,
+                                            '.hidden', '/etc/passwd', 'view/../index.html',
+                                            stop, ws, 'samples.csv']),
                               got(Url, Path, Code, _, _),
                               Code < 400 ), Found) )),
+        delete_directory_and_contents(Folder)).
+% Four connections that said nothing, such as a browser makes, kept a page waiting for a minute.
+test(silent_connections_hold_nobody_up) :-
+    tmp_file(playground, Folder),
+    setup_call_cleanup(
+        ( make_directory(Folder), written(Folder, 'index.html', "") ),
+        with_playground(Folder, Url,
+            ( parse_url(Url, Parts),
+              memberchk(port(Port), Parts),
+              findall(S, ( between(1, 8, _), tcp_connect(localhost:Port, S, []) ), Silent),
+              tcp_connect(localhost:Port, Page, []),
+              format(Page, "GET / HTTP/1.0\r\n\r\n", []),
+              flush_output(Page),
+              wait_for_input([Page|Silent], First, 600),
+              maplist(close, [Page|Silent]),
+              memberchk(Page, First) )),
         delete_directory_and_contents(Folder)).
 
 written(Folder, Name, Text) :-

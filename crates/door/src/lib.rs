@@ -1,4 +1,5 @@
-//! Serves one page: its files, what is made on request, STOP, and a websocket to talk.
+//! Serves one page: its files, what is made on request, STOP, and a websocket to talk. Or it serves
+//! a folder, to everybody.
 //!
 //! One thread takes connections and reads the heads of requests, many at a time. What comes from
 //! those who lack the token is bounded: how many connections there are, how long and how large a
@@ -20,6 +21,7 @@ use self::site::Reply;
 use ev3_os::locked;
 use nix::sys::signal::{SigSet, SigmaskHow};
 use rustix::event::{PollFd, PollFlags, poll};
+use std::fs::File;
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::os::unix::net::UnixStream;
@@ -36,6 +38,9 @@ const MOST_PAGES: usize = 16;
 
 /// How long a request may take to come.
 const PATIENCE: Duration = Duration::from_secs(2);
+
+/// So much of a file is read at once, in bytes.
+const PART: u64 = 64 << 10;
 
 /// The largest head of a request.
 const LARGEST_HEAD: usize = 16 << 10;
@@ -153,6 +158,8 @@ struct Connection {
     head: Vec<u8>,
     /// What is still to be sent; empty as long as the request is not complete.
     answer: Vec<u8>,
+    /// The file whose rest is sent after that.
+    rest: Option<File>,
 }
 
 impl Shared {
@@ -234,6 +241,9 @@ impl Server {
                     connection.answer = answer;
                 }
                 Reply::Answer(answer) => connection.answer = answer,
+                Reply::File(head, file) => {
+                    (connection.answer, connection.rest) = (head, Some(file));
+                }
             }
         }
         connection.write_answer()
@@ -257,7 +267,7 @@ impl Server {
 impl Connection {
     fn new(stream: TcpStream) -> Self {
         let until = Instant::now() + PATIENCE;
-        Self { stream, until, head: Vec::new(), answer: Vec::new() }
+        Self { stream, until, head: Vec::new(), answer: Vec::new(), rest: None }
     }
 
     /// Its request is not complete.
@@ -294,10 +304,16 @@ impl Connection {
     fn write_answer(mut self) -> Option<Self> {
         loop {
             match self.stream.write(&self.answer) {
-                Ok(count) if count == self.answer.len() => return None,
                 Ok(count) => {
                     self.answer.drain(..count);
                     self.until = Instant::now() + READING;
+                    if self.answer.is_empty() {
+                        let file = self.rest.as_mut()?;
+                        file.take(PART)
+                            .read_to_end(&mut self.answer)
+                            .ok()
+                            .filter(|read| *read > 0)?;
+                    }
                 }
                 Err(error) if error.kind() == ErrorKind::WouldBlock => {
                     return Some(self);

@@ -2,7 +2,7 @@
 use crate::head::{Head, MOST_FIELDS};
 use httparse::EMPTY_HEADER;
 use sha1_smol::Sha1;
-use std::fs;
+use std::fs::{self, File};
 use std::path::PathBuf;
 
 /// What is served, and to whom.
@@ -12,7 +12,8 @@ pub struct Site {
     pub any: bool,
     /// The port; 0 is any.
     pub port: u16,
-    /// Those who have it may enter.
+    /// Those who have it may enter. If it is empty, everybody may read the files of the folder and
+    /// of those within it, and nothing else.
     pub token: String,
     /// The folder of the page's files.
     pub files: PathBuf,
@@ -41,6 +42,8 @@ pub(crate) enum Reply {
     Refused(Vec<u8>),
     /// An answer.
     Answer(Vec<u8>),
+    /// What comes before a file, and the file.
+    File(Vec<u8>, File),
     /// The answer to STOP.
     Stopped(Vec<u8>),
     /// The connection is a page's from now on.
@@ -50,13 +53,15 @@ pub(crate) enum Reply {
 const TEXT: &str = "text/plain; charset=utf-8";
 
 /// The types of files.
-const TYPES: [(&str, &str); 6] = [
+const TYPES: [(&str, &str); 8] = [
     ("html", "text/html; charset=utf-8"),
     ("css", "text/css; charset=utf-8"),
     ("js", "text/javascript; charset=utf-8"),
     ("svg", "image/svg+xml"),
     ("png", "image/png"),
     ("woff2", "font/woff2"),
+    ("json", "application/json"),
+    ("wasm", "application/wasm"),
 ];
 
 impl Site {
@@ -66,9 +71,35 @@ impl Site {
         let Some(head) = Head::read(text, &mut fields) else {
             return Reply::Refused(refusal("400 Bad Request", "This is no request."));
         };
+        if self.token.is_empty() {
+            return self.public(&head);
+        }
         match head.refusal(self.any, self.port, &self.token) {
             Some(why) => Reply::Refused(refusal("403 Forbidden", why)),
             None => self.allowed(&head),
+        }
+    }
+
+    /// A file that everybody may read.
+    fn public(&self, head: &Head) -> Reply {
+        let is_part = |part: &str| {
+            !part.is_empty() && !part.starts_with('.') && !part.contains(['%', '\0', '\\'])
+        };
+        let path =
+            format!("{}{}", head.path, if head.path.ends_with('/') { "index.html" } else { "" });
+        let name = path.strip_prefix('/').filter(|name| name.split('/').all(is_part));
+        let opened = name.and_then(|name| {
+            let file = File::open(self.files.join(name)).ok()?;
+            let known = file.metadata().ok().filter(fs::Metadata::is_file)?;
+            let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
+            Some((file, known.len(), type_of(ending).unwrap_or("application/octet-stream")))
+        });
+        match opened {
+            _ if head.method != "GET" => {
+                Reply::Answer(refusal("405 Method Not Allowed", "Not this way."))
+            }
+            Some((file, length, kind)) => Reply::File(head_of("200 OK", kind, "", length), file),
+            None => Reply::Answer(refusal("404 Not Found", "There is no such file.")),
         }
     }
 
@@ -111,7 +142,7 @@ impl Site {
     fn file(&self, path: &str) -> Option<(&'static str, PathBuf)> {
         let name = path.strip_prefix('/').filter(|name| !name.contains(['/', '%', '\0']))?;
         let (base, ending) = name.rsplit_once('.')?;
-        let (_, kind) = TYPES.iter().find(|(known, _)| *known == ending)?;
+        let kind = type_of(ending)?;
         let file = self.files.join(name);
         (!base.is_empty() && (path == "/index.html" || file.is_file())).then_some((kind, file))
     }
@@ -120,6 +151,10 @@ impl Site {
         let (port, token) = (self.port, &self.token);
         format!("Set-Cookie: ev3view_{port}={token}; HttpOnly; SameSite=Strict; Path=/\r\n")
     }
+}
+
+fn type_of(ending: &str) -> Option<&'static str> {
+    TYPES.iter().find(|(known, _)| *known == ending).map(|(_, kind)| *kind)
 }
 
 fn attachment(name: &str) -> String {
@@ -138,16 +173,21 @@ fn refusal(status: &str, why: &str) -> Vec<u8> {
 /// An answer. Nothing that a page loads or sends may be elsewhere.
 fn answer(status: &str, host: &str, kind: &str, more: &str, body: &[u8]) -> Vec<u8> {
     let sockets = if host.is_empty() { String::new() } else { format!(" ws://{host}") };
-    let length = body.len();
-    let head = format!(
+    let more = format!(
+        "Content-Security-Policy: default-src 'self'; connect-src 'self'{sockets}; \
+         img-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n{more}"
+    );
+    [&head_of(status, kind, &more, body.len() as u64), body].concat()
+}
+
+fn head_of(status: &str, kind: &str, more: &str, length: u64) -> Vec<u8> {
+    format!(
         "HTTP/1.1 {status}\r\n\
-         Content-Security-Policy: default-src 'self'; connect-src 'self'{sockets}; \
-         img-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n\
          X-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\n\
          Cache-Control: no-store\r\nConnection: close\r\n{more}\
          Content-Type: {kind}\r\nContent-Length: {length}\r\n\r\n"
-    );
-    [head.as_bytes(), body].concat()
+    )
+    .into_bytes()
 }
 
 /// The answer to the key of a handshake (RFC 6455, 4.2.2); `None` if that is not a handshake.
