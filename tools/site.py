@@ -23,6 +23,7 @@ SITE = ROOT / "dist/site"
 
 CHAPTERS = [
     ("worlds", "Worlds and the simulator"), ("reactive", "Robots that react"),
+    ("reasoning", "See Prolog think"),
     ("cognitive-robotics", "Golog"), ("localization", "Where am I?"), ("view", "The live view"),
     ("playground", "The playground"), ("brick", "On the brick"), ("safety", "Safety"),
     ("coming-from", "Coming from another system"), ("performance", "How fast it is"),

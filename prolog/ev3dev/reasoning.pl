@@ -13,6 +13,7 @@
 :- use_module(private/errors/errors, [throw_error/3]).
 :- use_module(private/errors/frames, [goal_of_program/1]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
+:- use_module(private/explain/queries, [calls/2]).
 :- use_module(private/files/directory, [write_file/2]).
 :- use_module(private/reasoning/outline, [episodes/1]).
 :- use_module(private/reasoning/reasoning_words, [reasoning_lines/1]).
@@ -115,3 +116,30 @@ write_lines(Lines, Out0) :-
     ;   Out = Out0
     ),
     forall(member(Line, Lines), format(Out, '~w~n', [Line])).
+
+% ---------------- AT THE PROMPT
+
+:- multifile
+    ev3dev_queries:why_failed/2,
+    prolog:message//1.
+:- dynamic ev3dev_queries:why_failed/2.
+
+ev3dev_queries:why_failed(Query, Message) :-
+    ev3dev_reasoning:why_failed(Query, Message).
+
+why_failed(Query, ev3dev(why_false(Sentences))) :-
+    calls(Query, Goal),
+    functor(Goal, reasoning, _),
+    !,
+    episodes(Episodes),
+    why_false(Episodes, Sentences).
+
+prolog:message(ev3dev(why_false(Sentences))) -->
+    sentences(Sentences),
+    [ '`reasoning_text.` prints every step'-[] ].
+
+sentences([]) -->
+    [].
+sentences([Sentence|Sentences]) -->
+    [ '~w'-[Sentence], nl ],
+    sentences(Sentences).

@@ -240,14 +240,22 @@ in_rows(Rows, At) :-
     arg(8, Row, Below),
     ( At = From ; in_rows(Below, At) ).
 
+test(a_line_has_at_most_78_characters, true(Longest =< 78)) :-
+    reasoning(long(100, _)),
+    reasoning_text(Text),
+    split_string(Text, "\n", "", Lines),
+    aggregate_all(max(Length),
+                  ( member(Line, Lines), string_length(Line, Length) ),
+                  Longest).
 test(rounds_of_a_loop_are_counted) :-
     shows(down(50), Lines),
     count(Lines, '... 48 more that do the same', 1).
-test(why_false_names_the_branch_that_got_furthest, true(Count == 2)) :-
+test(why_false_names_the_branch_that_got_furthest) :-
     lecture(Lines),
-    count(Lines, 'Why false? way(right) went furthest: there 46.6 > 100 is', 1),
-    count(Lines, 'with D above 100; us_dist_cm(in1,D) gave 46.6 at 6.46 s.', Count0),
-    Count is Count0+1.
+    atomic_list_concat(Lines, ' ', Text),
+    forall(member(Part, [ 'Why false? way(right) went furthest: there 46.6 > 100 is false',
+                          'It would be true with D above 100; us_dist_cm(in1,D) gave 46.6 at 6.46 s.' ]),
+           once(sub_atom(Text, _, _, _, Part))).
 test(why_false_names_a_goal_without_a_clause) :-
     shown(no_clause, 'Why false? no clause of none(down) matches').
 test(why_false_of_a_negation_is_the_negation) :-

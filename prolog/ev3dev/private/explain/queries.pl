@@ -1,4 +1,6 @@
-:- module(ev3dev_queries, []).
+:- module(ev3dev_queries,
+          [ calls/2                     % +Query, -Goal
+          ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module('../basics/small_lists', [and_list/2, one_of/2]).
 :- use_module('../errors/frames', [program/1]).
@@ -11,16 +13,19 @@
 Before it begins: if a file has changed that defines what it calls. When it
 has failed: which goal of the program was the last one, if the program has
 used the robot. When it has failed, or ended by an error or an abort: which
-motors are still running. While the menu of Ctrl-C waits, simulated time
+motors are still running. A library that knows better why a query has failed
+says so by why_failed/2. While the menu of Ctrl-C waits, simulated time
 stands; that of a brick does not, so this says which motors go on. A page,
 another thread, or a program that ends says nothing.
 */
 
 :- multifile
+    why_failed/2,                       % Query, Message
     user:expand_query/4,
     user:message_hook/3,
     prolog:message//1.
 :- dynamic
+    why_failed/2,
     user:expand_query/4,
     user:message_hook/3,
     stands/0,                           % simulated time, in a menu
@@ -64,6 +69,10 @@ of_libraries :-
              sub_atom(Module, 0, _, _, ev3dev),
              module_property(Module, class(user)) ),
            set_module(Module:class(library))).
+
+%!  calls(+Query, -Goal) is nondet.
+%
+%   Goal is one of those that Query joins by commas.
 
 calls(Query, Goal) :-
     callable(Query),
@@ -144,11 +153,15 @@ ends_query(unwind(abort), _).
 ends_query(unhandled_exception(_), _).
 ends_query(error(_, _), error).
 
-remark(query(no), ev3dev(failed(Query))) :-
+remark(query(no), Remark) :-
     query(Query),
-    current_module(ev3dev_last_goal),
-    Used = ev3dev_last_goal:used_robot,
-    call(Used).
+    (   why_failed(Query, Remark)
+    ->  true
+    ;   current_module(ev3dev_last_goal),
+        Used = ev3dev_last_goal:used_robot,
+        call(Used),
+        Remark = ev3dev(failed(Query))
+    ).
 remark(_, ev3dev(still_run(Ports))) :-
     running_(Ports),
     Ports \== [].

@@ -218,15 +218,20 @@ given_up(Items, Note) :-
 
 %!  failed_last(+Items, -Episode) is semidet.
 %
-%   Episode is the innermost goal that failed last in Items, without an answer
-%   before.
+%   If the last one of Items has failed, Episode is the innermost goal that
+%   failed at its call, and not only when it was tried again.
 
 failed_last(Items, Failed) :-
     reverse(Items, Latest),
-    member(Episode, Latest),
-    Episode = episode(outcome: Outcome, items: Inner),
-    !,
-    Outcome == fail,
+    Last = episode(node: _),
+    memberchk(Last, Latest),
+    Last = episode(outcome: fail),
+    (   Called = episode(start: call, outcome: fail),
+        memberchk(Called, Latest)
+    ->  Episode = Called
+    ;   Episode = Last
+    ),
+    Episode = episode(items: Inner),
     (   failed_last(Inner, Failed0)
     ->  Failed = Failed0
     ;   Failed = Episode

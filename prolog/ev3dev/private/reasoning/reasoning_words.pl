@@ -18,7 +18,7 @@ width(78).
 %!  reasoning_lines(-Lines) is det.
 %
 %   Lines are the rows of the outline, what is missing, and why the goal is
-%   false. A line has at most 78 characters, unless one goal alone is longer.
+%   false. A line has at most 78 characters.
 
 reasoning_lines(Lines) :-
     episodes(Episodes),
@@ -55,7 +55,9 @@ row_line(Rows, Depth, Line) :-
                 ),
                 Remarks),
         Indent is 2*min(Depth, 20),
-        format(string(Begin), '~w ~*c~w ~w', [Time, Indent, 0' , Mark, Text]),
+        format(string(Begin0), '~w ~*c~w ~w',
+               [Time, Indent, 0' , Mark, Text]),
+        cut_off(Begin0, Begin),
         laid_out(Begin, Remarks, Line)
     ;   Depth1 is Depth+1,
         row_line(Below, Depth1, Line)
@@ -108,18 +110,25 @@ what(_, Goal, _, Text) :-
     goal_words(Goal, Text).
 
 way_remark(ways(Count), State, Text) :-
+    (   Count =:= 1
+    ->  Ways = way,
+        Given = given
+    ;   Ways = ways,
+        Given = 'all given'
+    ),
     (   State == false
-    ->  format(string(Text), '~d ways, all given up', [Count])
-    ;   format(string(Text), '~d ways', [Count])
+    ->  format(string(Text), '~D ~w, ~w up', [Count, Ways, Given])
+    ;   format(string(Text), '~D ~w', [Count, Ways])
     ).
 
 state_remark(false, [_|_], "fails").
 state_remark(error(Ball), _, Text) :-
     goal_words(Ball, Words),
     format(string(Text), 'throws ~w', [Words]).
-state_remark(left, _, "is left").
+state_remark(left, _, "interrupted").
 state_remark(running, _, "runs").
-state_remark(open, _, "may have more answers").
+state_remark(open, Below, "may have more answers") :-
+    \+ ( member(Row, Below), Row = row(state: open) ).
 
 note_remark(given_up(Goal), Text) :-
     goal_words(Goal, Words),
@@ -127,6 +136,15 @@ note_remark(given_up(Goal), Text) :-
 note_remark(moved(Seconds), Text) :-
     format(string(Text), 'moved ~1f s, stays done', [Seconds]).
 note_remark(commanded, "stays done").
+
+cut_off(Line0, Line) :-
+    width(Width),
+    Length is Width-3,
+    (   sub_string(Line0, 0, Length, After, Begin),
+        After > 3
+    ->  string_concat(Begin, "...", Line)
+    ;   Line = Line0
+    ).
 
 %   The remarks are at the right, or on the next line.
 

@@ -20,6 +20,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(instrument, [instrument/0, translate/4]).
+:- use_module('../errors/frames', [in_pack/3]).
 :- use_module('../native/native',
               [commands_/1, sim_active_/0, sim_pose_/3, sim_time_/1]).
 
@@ -190,7 +191,8 @@ leaf(Node, Goal) :-
 %!  recorded(+N, :G, ?A1, ?A2, ?A3, ?A4, ?A5) is nondet.
 %!  recorded(+N, :G, ?A1, ?A2, ?A3, ?A4, ?A5, ?A6) is nondet.
 %
-%   Call Goal in Node, which calls its argument. More arguments may follow.
+%   Call Goal in Node, which calls its argument. More arguments may follow. A
+%   goal of the pack's own has no node.
 
 recorded(Node, Goal) :-
     (   nb_current(ev3dev_reasoning, Current),
@@ -198,6 +200,7 @@ recorded(Node, Goal) :-
         Current \== off,
         strip_module(Goal, Module, Plain),
         callable(Plain),
+        \+ in_pack(Module:x/0, _, _),
         translate(Plain, Module, Inner, Recorded)
     ->  local(Node, Inner),
         call(Recorded)

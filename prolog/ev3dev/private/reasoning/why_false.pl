@@ -125,9 +125,21 @@ failure_words(Failed, Text) :-
     ).
 
 where(Clause, Text) :-
-    (   clause_of(Clause, place(_:Predicate, _, _, _File, Line))
-    ->  format(string(Text), ' (~q, line ~d)', [Predicate, Line])
+    (   clause_of(Clause, Of),
+        Of = place(_:Predicate, _, _, File, Line)
+    ->  place_words(File, Line, Place),
+        format(string(Text), ' (~q, ~w)', [Predicate, Place])
     ;   Text = ""
+    ).
+
+%   The name of the file only if the program has several.
+
+place_words(File, Line, Place) :-
+    (   clause_of(_, place(_, _, _Of, Other, _)),
+        Other \== File
+    ->  file_base_name(File, Name),
+        format(string(Place), '~w:~d', [Name, Line])
+    ;   format(string(Place), 'line ~d', [Line])
     ).
 
 %   advice(+Failed, +Clause, +Path, -Sentence): what would have made a
@@ -229,15 +241,7 @@ appended([_|Arguments], [Value|Values], Value0, Name, [Value|Written]) :-
 
 clause_words(Clause, Text) :-
     clause_of(Clause, place(_, Nth, Of, File, Line)),
-    (   File == none
-    ->  Place = ""
-    ;   clause_of(_, place(_, _, _Of, Other, _)),
-        Other \== File,
-        Other \== none
-    ->  file_base_name(File, Name),
-        format(string(Place), '~w:~d', [Name, Line])
-    ;   format(string(Place), 'line ~d', [Line])
-    ),
+    place_words(File, Line, Place),
     (   Of > 1
     ->  format(string(Text), '~w, clause ~d of ~d', [Place, Nth, Of])
     ;   Text = Place
