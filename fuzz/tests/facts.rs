@@ -1,7 +1,7 @@
 //! Facts of worlds and robots: files that somebody sends, with any numbers in them.
 use bolero::{TypeGenerator, check};
 use ev3_sim::facts::{Fact, Kind, Subject, Value};
-use ev3_sim::{Color, Echo, Hull, Machine, Options, Port, Pose, RobotSpec, WorldSpec};
+use ev3_sim::{Color, Echo, Hull, Machine, Options, Port, Pose, RobotSpec, Traits, WorldSpec};
 use std::time::Duration;
 
 /// A number: most are sizes that make sense.
@@ -65,6 +65,17 @@ impl Any {
             }
             Kind::Places => {
                 Value::Places((0..choice % 5).map(|at| [number(at), number(at + 1)]).collect())
+            }
+            Kind::Traits => {
+                let some = |at: usize| (choice >> at & 1 == 1).then(|| number(at));
+                Value::Traits(Traits {
+                    mass: some(0),
+                    friction: some(1),
+                    height: some(2),
+                    bounces: some(3),
+                    rolls: choice >> 4 & 1 == 1,
+                    ..Traits::default()
+                })
             }
             Kind::Rows => Value::Rows(self.rows.clone()),
             Kind::Hull if choice % 2 == 0 => Value::Hull(Hull::Circle { radius: number(0) }),

@@ -7,6 +7,7 @@ pub fn reply(site: &Site, text: &[u8]) -> Vec<u8> {
     match site.reply(text) {
         Reply::Refused(answer)
         | Reply::Answer(answer)
+        | Reply::File(answer, _)
         | Reply::Stopped(answer)
         | Reply::Page(answer) => answer,
     }

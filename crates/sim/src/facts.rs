@@ -218,6 +218,7 @@ impl Fact {
             (Fact::Motor(_), Part::Motor(index)) => index == motors,
             (Fact::Sensor(_), Part::Sensor(index)) => index == sensors,
             (Fact::EncoderNoise(at, _), Part::EncoderNoise(other))
+            | (Fact::Noise(at, _), Part::Noise(other))
             | (Fact::Echo(at, _), Part::Echo(other)) => *at == other,
             _ => false,
         }

@@ -278,6 +278,18 @@ fn validate_devices(
         }
         used.push(*port);
     }
+    let motors = motors.iter().enumerate().map(|(at, it)| (it.port, it.noise, Part::Motor(at)));
+    let sensors = sensors.iter().enumerate().map(|(at, it)| (it.port, it.noise, Part::Sensor(at)));
+    for (port, noise, part) in motors.chain(sensors) {
+        let Noise { sigma, bias } = noise.unwrap_or_default();
+        if !(sigma.is_finite() && sigma >= 0.0 && bias.is_finite()) {
+            let error = SpecError::new(
+                format!("noise on {port}"),
+                "needs a spread that is not below 0, and a bias",
+            );
+            return Err(error.in_part(Part::Noise(port)).in_part(part));
+        }
+    }
     Ok(())
 }
 

@@ -404,6 +404,8 @@ pub enum Part {
     Motor(usize),
     /// The errors of the encoder of the motor at a port.
     EncoderNoise(Port),
+    /// The errors of the device at a port.
+    Noise(Port),
     /// What its ultrasonic sensor hears.
     Echo(Port),
     /// A sensor, by its place in [`RobotSpec::sensors`](crate::RobotSpec::sensors).

@@ -1,7 +1,7 @@
 //! Encoders whose teeth are not quite where they should be.
 use crate::desk::{A, B, C, Desk};
 use crate::robots::default_robot;
-use ev3_sim::{Machine, Options, WorldSpec};
+use ev3_sim::{Machine, Noise, Options, WorldSpec};
 use std::collections::{BTreeMap, BTreeSet};
 
 fn desk_of(sigma: f64, seed: u64) -> Desk {
@@ -102,5 +102,18 @@ fn errors_are_not_below_0() {
         robot.motors[1].encoder_noise = Some(sigma);
         let error = robot.validate().unwrap_err();
         assert!(error.to_string().starts_with("encoder noise on outB"), "{error}");
+    }
+}
+
+#[test]
+fn noise_is_of_numbers() {
+    for (sigma, bias) in [(-1.0, 0.0), (f64::NAN, 0.0), (0.0, f64::NAN), (1.0, f64::INFINITY)] {
+        let (mut motor, mut sensor) = (default_robot(), default_robot());
+        motor.motors[1].noise = Some(Noise { sigma, bias });
+        sensor.sensors[0].noise = Some(Noise { sigma, bias });
+        for (robot, port) in [(motor, "outB"), (sensor, "in1")] {
+            let error = robot.validate().unwrap_err();
+            assert!(error.to_string().starts_with(&format!("noise on {port}")), "{error}");
+        }
     }
 }
