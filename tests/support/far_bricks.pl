@@ -115,9 +115,11 @@ with_login(Goal) :-
 
 %!  far_end(?How)
 %
-%   The worker is killed; the connection is cut; it is silent; the program is killed.
+%   The worker is killed, or stopped by SIGSTOP; the connection is cut; it is silent; the program is
+%   killed.
 
 far_end(killed).
+far_end(stopped).
 far_end(cut).
 far_end(silent).
 far_end(program_killed).
@@ -157,6 +159,8 @@ late(End, Late) :-
 
 hurt(killed, Worker, _) :-
     process_kill(Worker, kill).
+hurt(stopped, Worker, _) :-
+    process_kill(Worker, stop).
 hurt(cut, _, Relay) :-
     catch(process_kill(Relay, kill), error(_, _), true).
 hurt(silent, _, Relay) :-

@@ -67,13 +67,23 @@ far_open(Name, Where, Far) :-
         throw(Error)
     ).
 
+%   On the brick a shell waits for the end of the connection, too: a worker
+%   that hangs, as after SIGSTOP, does not see it. It is killed a second later,
+%   which stops its motors. Standard input is that of the worker, by fd 3.
 %   A process of this machine has a group of its own, so that Ctrl-C does not
 %   reach it. ssh must be able to ask for a password at the terminal; a signal
 %   that is ignored when it starts stays so.
 
 process_of(ssh(Destination), path(sh),
            [ '-c', 'trap "" INT; exec "$@"', sh, ssh, '-T', Destination,
-             'swipl -q -g "use_module(library(ev3dev/worker)),work" -t halt'
+             'exec 3<&0; \c
+              swipl -q -g "use_module(library(ev3dev/worker)),work" -t halt \c
+                  <&3 3<&- & w=$!; \c
+              { while [ -d /proc/$PPID ] && [ -d /proc/$w ]; \c
+                do sleep 1; done; \c
+                [ -d /proc/$w ] && sleep 1 && kill -KILL $w; \c
+              } </dev/null >/dev/null 2>&1 3<&- & \c
+              wait $w'
            ], false) :-
     must_be(text, Destination),
     (   sub_string(Destination, 0, 1, _, "-")
