@@ -97,6 +97,11 @@ test(the_app_ends, [condition(exists_file('app/ev3dev.pl')), true(Wrong == [])])
     atom_concat(Copy, '/app/ev3dev.pl', File),
     run([File, view], Output),
     findall(Line, ( member(Line, Output), \+ says_so(Line) ), Wrong).
+% A hundred lines said that files could not be opened.
+test(too_few_files_may_be_open, true(Wrong == [])) :-
+    run('ulimit -n 9; exec "$0" "$@"', "use_module(library(ev3dev))", Output),
+    Output = [_|_],
+    findall(Line, ( member(Line, Output), \+ sub_string(Line, _, _, _, "ulimit -n 64") ), Wrong).
 :- end_tests(no_library).
 
 :- dynamic copy/1.
@@ -150,6 +155,9 @@ says_so(Line) :-
     !.
 
 run(What, Lines) :-
+    run('exec "$0" "$@"', What, Lines).
+
+run(Shell, What, Lines) :-
     copy(Copy),
     swipl(Program),
     (   is_list(What)
@@ -158,7 +166,7 @@ run(What, Lines) :-
     ),
     atom_concat(Copy, '/prolog', Library),
     atom_concat('library=', Library, Path),
-    process_create(path(env), [Program, '-q', '-f', none, '-p', Path|Arguments],
+    process_create(path(sh), ['-c', Shell, Program, '-q', '-f', none, '-p', Path|Arguments],
                    [ process(Pid), stdin(null), stdout(pipe(Out)),
                      stderr(pipe(Error)) ]),
     read_string(Error, _, Errors),

@@ -138,4 +138,26 @@ read_index(File, Index) :-
         read_term(In, Index, []),
         close(In)).
 
-:- use_compiled.
+% ---------------- DESCRIPTORS
+
+%   While a file is loaded, up to five others are open within it.
+
+can_load(0) :-
+    !.
+can_load(Files) :-
+    module_property(ev3dev_compiled, file(This)),
+    catch(setup_call_cleanup(open(This, read, In),
+                             ( Rest is Files-1, can_load(Rest) ),
+                             close(In)),
+          error(resource_error(_), _), fail).
+
+too_few_files :-
+    pack_folder(Pack),
+    atom_concat(Pack, '/prolog/ev3dev/private/native/no_library', File),
+    load_files(File, [if(not_loaded), imports([])]),
+    ev3dev_no_library:without_library(
+        error(resource_error(max_files),
+              context(_, 'it loads where a program may open 64 files or \c
+                          more: ulimit -n 64'))).
+
+:- ( can_load(5) -> use_compiled ; too_few_files ).

@@ -3,9 +3,10 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 
-/** <module> The pack where its foreign library is missing
+/** <module> The pack where it cannot be loaded
 
-As after a pack_install that found no Rust to build it. One message says so.
+Its foreign library is missing, as after a pack_install that found no Rust to
+build it, or too few files may be open. One message says so.
 The files of the pack are then read for their exports alone: each exported
 predicate throws the same error. Nothing loads this file on a machine that has
 the library.
@@ -34,7 +35,7 @@ without_library(Error) :-
 %   At the prompt, too, with no backtrace after it.
 
 prolog:message(error(Formal, context(_, Text))) -->
-    { Formal == existence_error(foreign_library, ev3dev) },
+    { missing(error(Formal0, _)), Formal == Formal0 },
     [ 'library(ev3dev) cannot be used: ~w'-[Text] ].
 
 %   Libraries that offer what others export go on doing so.
@@ -54,7 +55,9 @@ reduced(Term, File, Error, Terms) :-
     (   Term == end_of_file
     ->  Clauses \== [],
         followed_by(Clauses, Term, Terms)
-    ;   reexports(Term)
+    ;   reexports(Term),
+        \+ ( Error = error(resource_error(_), _),
+             \+ ev3dev_compiled:can_load(1) )
     ->  Terms = [Term|Clauses]
     ;   Terms = Clauses
     ).
