@@ -131,7 +131,7 @@ function heard(message) {
   if (type === 'answer') {
     failed = message.state === 'error' ? message.text : null;
     console_.answer(message);
-  } else if (type === 'reads') console_.reads(true);
+  } else if (type === 'reads') console_.reads(what);
   else if (type === 'say') {
     window.speechSynthesis?.speak(new SpeechSynthesisUtterance(message.text));
   } else if (type === 'raised') {
@@ -176,7 +176,7 @@ function stop() {
 
 function running(runs) {
   if (!runs) {
-    console_.reads(false);
+    console_.reads(null);
     console_.nextPasted();
   }
   text($('run'), runs ? 'Stop' : 'Run');

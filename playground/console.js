@@ -7,6 +7,7 @@ const MOST = { rows: 1000, letters: 200_000 };
 const KEY = 'ev3dev playground queries';
 /** An answer that is longer is folded. */
 const LONG = 300;
+const READS = { term: 'a term and a full stop', line: 'a line', clauses: 'clauses, and then an empty line' };
 const SHOWN = new Set(['output', 'goal', 'answer', 'warning', 'error', 'stop', 'mark']);
 
 export class Console {
@@ -29,7 +30,7 @@ export class Console {
     this.list.addEventListener('scroll', () => { this.atEnd = this.list.scrollTop + this.list.clientHeight >= this.list.scrollHeight - 24; });
     $('query').addEventListener('submit', (event) => {
       event.preventDefault();
-      this.ask(this.input.value.trim());
+      this.ask(this.reading ? this.input.value : this.input.value.trim());
     });
     this.input.addEventListener('paste', (event) => this.paste(event));
     this.input.addEventListener('keydown', (event) => this.key(event));
@@ -54,7 +55,7 @@ export class Console {
     this.newest = -1;
     this.waits = null;
     this.wait(null);
-    this.reads(false);
+    this.reads(null);
   }
 
   say(kind, words) {
@@ -107,13 +108,13 @@ export class Console {
     }
   }
 
-  /** The program reads a line, or does no more. */
-  reads(does) {
-    if (!does && !this.reading) return;
-    this.reading = does;
-    text($('query-mark'), does ? '|:' : '?-');
-    text($('query-hint'), does ? 'The program reads: type a term and a full stop.' : '');
-    if (does) {
+  /** What the program reads, a key of READS; or nothing any more. */
+  reads(what) {
+    if (!what && !this.reading) return;
+    this.reading = Boolean(what);
+    text($('query-mark'), what ? '|:' : '?-');
+    text($('query-hint'), what ? `The program reads: type ${READS[what]}.` : '');
+    if (what) {
       this.input.focus();
       this.nextPasted();
     }
@@ -137,7 +138,7 @@ export class Console {
     if (this.reading) {
       this.say('goal', `|: ${goal}`);
       this.input.value = '';
-      this.reads(false);
+      this.reads(null);
       return this.send(`input ${goal}`);
     }
     if (!goal && this.waits) return this.another('enough');

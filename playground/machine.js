@@ -1,12 +1,21 @@
 // Prolog in its worker, as the page uses it.
 
 /** After so long, in milliseconds, another worker begins to compute beside one that does not
-    answer STOP: what has not answered when that is done computes without a pause, and is ended. */
-const PATIENCE = 60;
+    answer STOP: what has not answered after so many rounds computes without a pause, and is ended.
+    Less is enough for one that has said nothing since it was asked for so many frames: it sends one
+    a second at least. */
+const PATIENCE = { wait: 60, rounds: 4e7 };
+const IMPATIENCE = { wait: 20, rounds: 1e6, frames: 6 };
 /** So long nobody may ask for a frame, as a view that is not seen does not; then the page does. */
 const UNSEEN = 250;
 
 const HOME = '/home/web_user/';
+
+/** Words of the lines by which hands change a world, and of those that begin another one. */
+const HANDS = ['add', 'move', 'remove', 'unplug', 'plug', 'hold', 'free'];
+const isRobot = (line) => line.startsWith('choose robot ');
+const WORLDS = ['begin', 'choose'];
+const nameOf = (line) => line?.split(' ')[line.startsWith('begin') ? 1 : 3];
 
 export class Machine {
   /** `on` has: begins(), took(message), runs(), ends(why), and `heard(message)`, of each that is no frame. */
@@ -16,15 +25,18 @@ export class Machine {
     this.have = '';
     this.asked = 0;
     this.open = false;
-    /** What made the world as it is: lines that begin it again; and those that are not answered yet. */
+    /** What made the world as it is: lines that begin it again, and what hands did to it then;
+        and those lines that are not answered yet. */
     this.world = [];
+    this.hands = [];
     this.begun = [];
-    /** Where the robot stands; and how often STOP was pressed while nothing had answered. */
+    /** The world, where the robot stands, and how often STOP was pressed while nothing had answered. */
+    this.name = null;
     this.pose = null;
     this.stops = 0;
     this.beside = new Worker('patience.js');
     this.beside.onmessage = ({ data }) => {
-      if (data === this.stops) this.fails('The program computed without a pause, so it was ended. Prolog was started again; your text is unchanged, and the robot stands where it was.');
+      if (data.stops === this.stops) this.fails('The program computed without a pause, so STOP has started Prolog again: your text, the world and the robot\u2019s place are as they were, but facts that a program added are gone.');
     };
     this.start();
     setInterval(() => {
@@ -39,6 +51,7 @@ export class Machine {
   }
 
   take(data) {
+    this.unheard = 0;
     if (typeof data !== 'string') {
       if (data.ready) this.begins();
       else this.fails(data.fault);
@@ -49,6 +62,7 @@ export class Machine {
     if (message.type === 'frame') {
       this.have = message.have;
       this.pose = message.robot?.true;
+      this.name = message.name ?? this.name;
       this.frames += 1;
       if (this.frames <= this.before) message.program = { ...message.program, state: 'running' };
       this.on.took(message);
@@ -58,7 +72,7 @@ export class Machine {
       return;
     }
     if (message.what === 'stop') this.answers();
-    if (message.what === 'begin' || message.what === 'choose') this.remember(message.type === 'done', this.begun.shift());
+    this.remember(message);
     if (!this.on.heard(message)) this.view?.take(message);
   }
 
@@ -67,10 +81,11 @@ export class Machine {
     this.have = '';
     /** Frames that were asked for, and that came; those up to `before` do not know what was begun last. */
     [this.wanted, this.frames, this.before] = [0, 0, 0];
-    const { world, pose } = this;
-    this.world = [];
-    this.begun = [];
-    for (const line of world) this.send(line);
+    const { world, hands, name, pose } = this;
+    [this.world, this.hands, this.begun] = [[], [], []];
+    // A program may have begun another world than the page.
+    const own = nameOf(world.findLast((line) => !isRobot(line))) ?? 'room';
+    for (const line of [...world, ...name && name !== own ? [`choose world pack ${name}`] : hands]) this.send(line);
     if (pose) this.send(`place ${pose.join(' ')}`);
     this.on.begins();
     this.view?.begins();
@@ -85,12 +100,13 @@ export class Machine {
   next(have) {
     this.asked = performance.now();
     this.wanted += 1;
+    this.unheard += 1;
     this.send(have ? `next ${have}` : 'next');
   }
 
   send(line) {
     if (!this.open) return false;
-    if (/^(choose|begin) /.test(line)) this.begun.push(line);
+    if ([...WORLDS, ...HANDS].includes(line.split(' ', 1)[0])) this.begun.push(line);
     this.worker.postMessage(line);
     if (/^(run|load|check|goal|more) /.test(line)) {
       this.before = this.wanted;
@@ -100,17 +116,25 @@ export class Machine {
   }
 
   /** A world that has begun, or a robot, takes the place of the former one. */
-  remember(isDone, line) {
-    const isRobot = (each) => /^choose robot /.test(each);
-    if (isDone && line) this.world = [...this.world.filter((other) => isRobot(other) !== isRobot(line)), line];
-    this.on.worldChanged();
+  remember({ type, what }) {
+    const at = this.begun.findIndex((line) => line.startsWith(`${what} `));
+    const [line] = at < 0 ? [] : this.begun.splice(at, 1);
+    if (type !== 'done') return;
+    if (what === 'reset') this.hands = [];
+    else if (HANDS.includes(what)) this.hands.push(line);
+    else if (line) {
+      this.world = [...this.world.filter((other) => isRobot(other) !== isRobot(line)), line];
+      this.hands = [];
+    }
+    if (WORLDS.includes(what)) this.on.worldChanged();
   }
 
   stop() {
     if (!this.open) return;
     this.send('stop');
     if (this.late) return;
-    this.late = setTimeout(() => this.beside.postMessage(this.stops), PATIENCE);
+    const { wait, rounds } = this.unheard > IMPATIENCE.frames ? IMPATIENCE : PATIENCE;
+    this.late = setTimeout(() => this.beside.postMessage({ stops: this.stops, rounds }), wait);
   }
 
   /** STOP is waited for no more. */

@@ -4,6 +4,8 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists)).
 :- use_module(library(prolog_codewalk), [prolog_walk_code/1]).
+:- use_module(library(prolog_wrap), [wrap_predicate/4]).
+:- use_module(library(readutil), []).
 :- use_module(library(wasm), [(:=)/2, await/2, op(700, xfx, :=)]).
 % What is typed finds them without a program.
 :- user:use_module(library(ev3dev)).
@@ -18,7 +20,7 @@
 :- use_module('../prolog/ev3dev/private/run/brick', [brick/1]).
 :- use_module(check, [checked/4, checking/0]).
 :- use_module('../prolog/ev3dev/private/errors/frames', [program/1]).
-:- use_module('../prolog/ev3dev/private/view/goals', [goal_solve/4]).
+:- use_module('../prolog/ev3dev/private/view/goals', [goal_solve/5]).
 :- use_module('../prolog/ev3dev/private/view/jog', [jog_round/2]).
 :- use_module('../prolog/ev3dev/private/view/log',
               [ error_text/2, leave_messages/0, lines_text/2, note/2,
@@ -40,7 +42,6 @@ these:
 | `run NAME TEXT` | load TEXT as the program NAME, and run it |
 | `load NAME TEXT` | load it only |
 | `check NAME EXERCISE TEXT` | try it on an exercise of the course |
-| `input TEXT` | a line that the program reads, after `{"type":"reads"}` |
 | `goal N TEXT`, `more N`, `enough N` | as there |
 
 `run` and `load` are answered by `done` with `errors`, a list of
@@ -63,6 +64,7 @@ the page is sent a frame. STOP is an abort at such a place.
     program_file/1,
     raised/1,                           % Line: of the last error
     tracing_goals/0,
+    typed/1,                            % Stream: has lines that were typed
     warned/0.
 
 %   The page has no number: there is one.
@@ -101,6 +103,7 @@ begin :-
     page_settings(60, true),
     worlds_settings(localhost),
     watch_messages,
+    watch_reads,
     asserta((user:message_hook(Message, Kind, Lines) :-
                  ev3dev_playground:of_program(Kind, Message, Lines))),
     set_stream(user_output, buffer(line)),
@@ -329,7 +332,8 @@ goal(Text, Number) :-
     page(Page),
     retractall(raised(_)),
     retractall(warned),
-    running(traced(goal_solve(Text, Page, Number, answered))),
+    open_string("", In),
+    running(traced(goal_solve(Text, Page, Number, In, answered))),
     (   retract(raised(Line))
     ->  view_say_(Page, json([type=raised, line=Line]))
     ;   true
@@ -368,17 +372,10 @@ halted(_) :-
 
 % ---------------- WHAT THE PROGRAM READS
 
-%   The page's line for queries answers it.
-:- redefine_system_predicate(user:read(_)).
-:- redefine_system_predicate(user:read_term(_, _)).
+%   The page's line for queries answers what reads from user_input, in
+%   programs and in libraries.
 :- redefine_system_predicate(user:consult(_)).
 :- redefine_system_predicate(user:'[|]'(_, _)).
-
-user:read(Term) :-
-    ev3dev_playground:typed_term(Term, []).
-
-user:read_term(Term, Options) :-
-    ev3dev_playground:typed_term(Term, Options).
 
 user:consult(File) :-
     ev3dev_playground:consulted(File).
@@ -394,43 +391,115 @@ consulted(Files) :-
     ;   user:load_files(Files, [])
     ).
 
-%   A term may have several lines.
-typed_term(Term, Options) :-
-    (   can_yield
-    ->  typed_lines(end_of_term, Text)
-    ;   Text = "end_of_file."
+%   reads(Name, Arity, Needs): with so many arguments it reads from the
+%   current input, and with one more, the first, from a stream.
+reads(read, 1, term).
+reads(read_term, 2, term).
+reads(get_char, 1, line).
+reads(get_code, 1, line).
+reads(peek_char, 1, line).
+reads(peek_code, 1, line).
+reads(skip, 1, line).
+reads(read_string, 2, line).
+reads(read_string, 4, line).
+reads(read_line_to_codes, 1, line).
+reads(read_line_to_codes, 2, line).
+
+watch_reads :-
+    forall(( reads(Name, Bare, Needs),
+             member(Module-More, [system-0, system-1, read_util-1]),
+             Arity is Bare + More,
+             functor(Head, Name, Arity),
+             predicate_property(Module:Head, defined),
+             \+ predicate_property(Module:Head, imported_from(_)) ),
+           wrap_predicate(Module:Head, ev3dev_page, Reads,
+                          ev3dev_playground:read_typed(More, Needs, Head,
+                                                       Reads))).
+
+read_typed(0, Needs, _, Reads) :-
+    current_input(In),
+    (   is_typed(In)
+    ->  type_more(Needs)
+    ;   true
     ),
-    setup_call_cleanup(
-        open_string(Text, In),
-        read_term(In, Term, [module(user)|Options]),
-        close(In)).
+    call(Reads).
+read_typed(1, Needs, Head, Reads) :-
+    arg(1, Head, In),
+    (   In == user_input
+    ->  type_more(Needs),
+        call(Reads)
+    ;   is_typed(In)
+    ->  Head =.. [Name, _|Arguments],
+        Again =.. [Name, user_input|Arguments],
+        read_util:Again
+    ;   call(Reads)
+    ).
+
+is_typed(In) :-
+    typed(In),
+    !.
+is_typed(In) :-
+    catch(stream_property(In, alias(user_input)), error(_, _), fail).
+
+%   If user_input has no term or line, have it typed: then another stream is
+%   user_input.
+type_more(Needs) :-
+    stream_property(Former, alias(user_input)),
+    (   typed(Former)
+    ->  peek_string(Former, 1000000, Rest)
+    ;   Rest = ""
+    ),
+    (   enough(Needs, Rest)
+    ->  true
+    ;   can_yield
+    ->  typed_lines(Needs, Rest, Text),
+        open_string(Text, New),
+        current_input(Current),
+        (   is_typed(Current)
+        ->  set_input(New)
+        ;   true
+        ),
+        assertz(typed(New)),
+        set_stream(New, alias(user_input))
+    ;   note(warning, "Nothing can be typed while an engine runs: read \c
+                       before it begins.")
+    ).
+
+forget_typed :-
+    forall(retract(typed(In)), close(In, [force(true)])).
 
 %   Clauses, until a line has nothing in it.
 consult_typed :-
     note(output, "Type clauses. A line with nothing in it ends them."),
-    typed_lines(nothing, Text),
+    typed_lines(clauses, "", Text),
     absolute_file_name('typed.pl', File),
     setup_call_cleanup(
         open_string(Text, In),
         load_files(user:File, [stream(In)]),
         close(In)).
 
-typed_lines(End, Text) :-
+typed_lines(Needs, Before, Text) :-
     output_noted,
     page(Page),
-    view_say_(Page, json([type=reads])),
+    view_say_(Page, json([type=reads, what=Needs])),
     typed_line(Line),
-    (   ends_typed(End, Line)
-    ->  Text = Line
-    ;   typed_lines(End, Rest),
-        string_concat(Line, Rest, Text)
+    string_concat(Before, Line, Text0),
+    (   enough(Needs, Text0)
+    ->  Text = Text0
+    ;   typed_lines(Needs, Text0, Text)
     ).
 
-ends_typed(_, "end_of_file.\n").
-ends_typed(nothing, "\n").
-ends_typed(end_of_term, Line) :-
-    split_string(Line, "", " \n", [Bare]),
+enough(line, Text) :-
+    Text \== "".
+enough(term, Text) :-
+    split_string(Text, "", " \n", [Bare]),
     sub_string(Bare, _, 1, 0, ".").
+enough(clauses, Text) :-
+    (   Text == "\n"
+    ;   sub_string(Text, _, 2, 0, "\n\n")
+    ;   sub_string(Text, _, 13, 0, "end_of_file.\n")
+    ),
+    !.
 
 %   Meanwhile the page is served, and STOP is heard.
 typed_line(Typed) :-
@@ -438,15 +507,24 @@ typed_line(Typed) :-
     setup_call_cleanup(
         ( set_prolog_flag(heartbeat, 0),
           nb_setval(ev3dev_playground_turn, on) ),
-        ( next_line(Line),
-          word_rest(Line, Word, Rest) ),
+        typed_or_stopped(Typed),
         ( nb_setval(ev3dev_playground_turn, off),
           set_prolog_flag(heartbeat, Beat) )),
+    (   is_stopping
+    ->  interrupted
+    ;   true
+    ).
+
+typed_or_stopped(Typed) :-
+    next_line(Line),
+    word_rest(Line, Word, Rest),
     (   Word == input
     ->  string_concat(Rest, "\n", Typed)
     ;   heard(Line),
-        ( is_stopping -> abort ; true ),
-        typed_line(Typed)
+        (   is_stopping
+        ->  true
+        ;   typed_or_stopped(Typed)
+        )
     ).
 
 % ---------------- THE TRACER
@@ -558,7 +636,8 @@ running(Goal) :-
     setup_call_cleanup(
         set_prolog_flag(heartbeat, Beat),
         ignore(Goal),
-        set_prolog_flag(heartbeat, 0)),
+        ( set_prolog_flag(heartbeat, 0),
+          forget_typed )),
     output_noted,
     stopped.
 
@@ -611,11 +690,16 @@ let_in(Milliseconds) :-
     hear_all,
     nb_setval(ev3dev_playground_turn, off),
     (   is_stopping
-    ->  abort
+    ->  interrupted
     ;   view_held_
     ->  let_in(4)
     ;   true
     ).
+
+%   Its end is not interrupted once more.
+interrupted :-
+    set_prolog_flag(heartbeat, 0),
+    abort.
 
 hear_all :-
     output_noted,

@@ -261,6 +261,27 @@ describe('the playground', () => {
     await page.$eval('#query-text', (field) => { field.value = ''; });
   });
 
+  test('answers what reads letters, lines and terms', async () => {
+    await run(page, `${HEAD}start :-
+    get_char(A), peek_char(B), get_char(B), get_char(_),
+    read_line_to_string(user_input, Line),
+    read_term(user_input, _, [variable_names(Names)]),
+    current_input(In), read_line_to_codes(In, _),
+    read_line_to_codes(In, Codes), atom_codes(Atom, Codes),
+    read(First), read(In, Second),
+    print([A, B, Line, Names, Atom, First, Second]), nl.\n`);
+    for (const [typed, hint] of [['ab', 'a line'], ['two  words ', 'a line'], ['point(X,', 'a term'], ['Y).', 'a term'], ['codes', 'a line'], ['1. 2.', 'a term']]) {
+      await until(() => page.$eval('#query-hint', (hint, words) => hint.textContent.includes(words), hint), `${hint} to be read`);
+      await ask(page, typed);
+      await until(async () => (await state(page)).said.some(([, words]) => words === `|: ${typed}`), typed);
+    }
+    await said(page, /^\[a,b,"two  words ",\['X'=_\w*,'Y'=_\w*\],codes,1,2\]/);
+    await idle(page);
+    await ask(page, 'engine_create(X, read(X), E), engine_next(E, X).');
+    await said(page, /^Nothing can be typed while/);
+    await idle(page);
+  });
+
   test('goes on after engines, branches and output that is caught', async () => {
     await page.click('#said-clear');
     await ask(page, 'engine_create(L, (wait(0.2), numlist(1, 30000, L)), E), engine_next(E, [One|_]), writeln(engine(One)).');
@@ -308,7 +329,7 @@ describe('the playground', () => {
       await until(async () => (await state(page)).program?.state === 'running' || (await state(page)).said.length > 1, `${name} to run`);
       if (isExample && !waits) {
         await until(async () => (await state(page)).said.some(([kind]) => kind === 'output' || kind === 'warning')
-          || page.evaluate(() => document.getElementById('robot').contentDocument.querySelector('#log li.command:not(.past)')), `${name} to move, or to say why not`);
+          || page.evaluate(() => document.getElementById('robot').contentDocument.querySelector('#log li.command:not(.past)') !== null), `${name} to move, or to say why not`);
       } else await new Promise((resolve) => { setTimeout(resolve, 200); });
       // In one step: if it ended in between, the click would start it again
       await page.evaluate(() => { if (window.ev3dev.state().program?.state === 'running') window.ev3dev.machine.stop(); });
@@ -340,6 +361,10 @@ describe('STOP', () => {
     'writes to user_error': 'start :- format(user_error, "hello~n", []), start.',
     'has 10 MB in one line': "start :- format(\"~*c\", [10000000, 0'x]), start.",
     'fails in a loop': 'start :- repeat, fail.',
+    counts: 'start :- count(0).\ncount(N) :- N1 is N+1, count(N1).',
+    'recurs without an end': 'start :- long(_, _).\nlong([_|T], N) :- long(T, N0), N is N0+1.',
+    'collects for long': 'start :- findall(X, between(1, inf, X), _).',
+    'computes for long in one call': 'start :- use_module(library(ev3dev/sim)), sim_step(100000), start.',
     'sorts three million numbers': 'start :- numlist(1, 3000000, L), msort(L, _), start.',
   };
   for (const [what, text] of Object.entries(PROGRAMS)) {
@@ -363,6 +388,33 @@ describe('STOP', () => {
       await page.end();
     });
   }
+
+  test('of a program that computes without a pause leaves text, world, things and robot', async () => {
+    const page = await visit();
+    await page.evaluate(() => ['begin my_world bounds(0,0,90,80).\nstart(30,30,0).\n', 'add box 60 60 10 10', 'add box 20 70 5 5', 'remove 2', 'unplug in1', 'place 40 35 90']
+      .forEach((line) => window.ev3dev.machine.send(line)));
+    await until(async () => String((await robot(page)).pose) === '40,35,90', 'the robot at its place');
+    const seen = () => page.evaluate(() => {
+      const { world, ports, robot: { true: pose } } = document.getElementById('robot').contentWindow.ev3view.state();
+      return { name: world.name, pose, items: world.items, in1: ports.find(({ port }) => port === 'in1').kind };
+    });
+    const before = await seen();
+    await run(page, `${HEAD}start :- assertz(known(1)), count(0).\ncount(N) :- N1 is N+1, count(N1).\n`);
+    await until(() => page.evaluate(() => window.ev3dev.machine.unheard > 6), 'a program that does not answer');
+    await page.keyboard.press('Escape');
+    await said(page, /computed without a pause.*facts that a program added are gone/);
+    await ready(page);
+    await until(async () => JSON.stringify(await seen()) === JSON.stringify(before), 'the world as it was');
+    await ask(page, 'known(X).');
+    await said(page, /unknown procedure.*known\/1/i);
+    // A program has begun another world.
+    await run(page, `${HEAD}:- use_module(library(ev3dev/sim)).\nstart :- sim_start(maze), wait(1), loop.\nloop :- loop.\n`);
+    await until(async () => (await robot(page)).world === 'maze' && (await robot(page)).time > 0.9, 'the other world');
+    await page.keyboard.press('Escape');
+    await ready(page);
+    await until(async () => (await robot(page)).world === 'maze', 'the other world again');
+    await page.end();
+  });
 
   test('says how much of the output is left out', async () => {
     const page = await visit();

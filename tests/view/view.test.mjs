@@ -1553,10 +1553,19 @@ group('goals', ROOM, 'goals(true)', (it) => {
     assert.equal(await why(), '');
   });
 
-  test('find nothing to read, and do not wait for it', async () => {
-    await ask('read(X).', /^X = end_of_file\.$/);
-    await row(it.page, /has nothing to read/);
-    await ask('consult(user), Y = consulted.', /^Y = consulted\.$/);
+  test('read what is typed in their place', async () => {
+    const reads = () => until(() => it.page.$eval('#goal label', (label) => label.textContent === '|:'), 'a goal that reads');
+    await type('read(X), get_char(_), read_line_to_string(user_input, L), get_char(C).');
+    for (const line of ['point(1,', '2).', 'a line', 'c']) {
+      await reads();
+      await ask(line, new RegExp(`^\\|: ${line.replace(/[().]/g, '\\$&')}$`));
+    }
+    await row(it.page, /^X = point\(1, ?2\),\nL = "a line",\nC = c\.$/);
+    await type('read(X).');
+    await reads();
+    await it.page.click('#stop');
+    await shows(it.page, (s) => s.program.state === 'idle' && !s.program.latched, 'its end');
+    assert.equal(await it.page.$eval('#goal label', (label) => label.textContent), '?-');
     assert.equal(await it.session.ask('X = 3, write(X)'), '3', 'the terminal is the toplevel\'s');
   });
 

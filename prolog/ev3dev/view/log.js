@@ -39,7 +39,8 @@ export class Log {
     this.list.addEventListener('keydown', (event) => this.key(event));
     $('goal').addEventListener('submit', (event) => {
       event.preventDefault();
-      this.ask($('goal-text').value.trim());
+      const { value } = $('goal-text');
+      this.ask(this.reading ? value : value.trim());
     });
     for (const word of ['more', 'enough']) $(`goal-${word}`).addEventListener('click', () => this.another(word));
     $('goal-text').addEventListener('keydown', (event) => {
@@ -199,7 +200,8 @@ export class Log {
 
   /** A goal is typed; what becomes of it comes in the log. */
   ask(goal) {
-    if (goal === ';' && this.waits) this.another('more');
+    if (this.reading) this.send(`input ${goal}`);
+    else if (goal === ';' && this.waits) this.another('more');
     else if (goal) {
       if (!this.send(`goal ${this.next} ${goal}`)) return this.refused('The program does not answer.');
       this.next += 1;
@@ -209,6 +211,14 @@ export class Log {
     $('goal-text').value = '';
     this.refused('');
     this.wait(null);
+    this.reads(false);
+  }
+
+  /** The goal reads a line, which is typed in its place. */
+  reads(does) {
+    this.reading = does;
+    text($('goal').querySelector('label'), does ? '|:' : '?-');
+    if (does) $('goal-text').focus();
   }
 
   another(word) {
@@ -218,6 +228,7 @@ export class Log {
   }
 
   answer({ n, state }) {
+    this.reads(false);
     if (n === this.next - 1) this.wait(state === 'more' ? n : null);
   }
 

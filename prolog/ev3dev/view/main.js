@@ -87,7 +87,8 @@ function state(name) {
 
 function reply(message) {
   if (message.type === 'answer') log.answer(message);
-  else if (message.type === 'refused' && ['goal', 'more', 'enough'].includes(message.what)) log.refused(message.why);
+  else if (message.type === 'reads') log.reads(true);
+  else if (message.type === 'refused' && ['goal', 'more', 'enough', 'input'].includes(message.what)) log.refused(message.why);
   else if (!editor.reply(message) && !program.reply(message)) hands.reply(message);
 }
 

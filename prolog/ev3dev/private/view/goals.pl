@@ -1,9 +1,10 @@
 :- module(ev3dev_view_goals,
           [ goal_line/4,                % +Word, +Rest, +Page, -Refused
             goals_end/1,                % +Page
-            goal_solve/4                % +Text, +Page, +Number, :Next
+            goal_solve/5                % +Text, +Page, +Number, +In, :Next
           ]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(prolog_stream), [open_prolog_stream/4]).
 :- use_module('../explain/hints', [tell_again/0]).
 :- use_module('../native/native', [view_part_/0, view_say_/2]).
 :- use_module(log, [error_text/2, note/2]).
@@ -13,10 +14,10 @@
 
 Only with the option `goals(true)`, and only at localhost. A goal runs in a
 thread of its own, as a part of the program. It stands in the log, with what
-it prints and its answers. There is nothing for it to read.
+it prints and its answers. What it reads is typed into the page.
 */
 
-:- meta_predicate goal_solve(+, +, +, 1).
+:- meta_predicate goal_solve(+, +, +, +, 1).
 
 :- dynamic
     running/3,                          % Page, Number, Thread
@@ -28,9 +29,9 @@ it prints and its answers. There is nothing for it to read.
 
 %!  goal_line(+Word, +Rest, +Page, -Refused) is semidet.
 %
-%   Start a goal, ask for its next answer, or end it. A new goal ends one that
-%   waits to be asked. Fails if that is not a line; Refused is bound to a text
-%   if it is not the time for it.
+%   Start a goal, ask for its next answer, end it, or give it a line that it
+%   reads. A new goal ends one that waits to be asked. Fails if that is not a
+%   line; Refused is bound to a text if it is not the time for it.
 
 goal_line(goal, Rest, Page, Refused) :-
     sub_string(Rest, Before, 1, After, " "),
@@ -40,10 +41,14 @@ goal_line(goal, Rest, Page, Refused) :-
     number_of(Number0, Number),
     with_mutex(ev3dev_view_goals, begin(Text, Number, Page, Refused)).
 goal_line(Word, Rest, Page, _) :-
-    memberchk(Word, [more, enough]),
-    number_of(Rest, Number),
+    (   Word == input
+    ->  Message = input(Rest)
+    ;   memberchk(Word, [more, enough]),
+        Message = Word,
+        number_of(Rest, Number)
+    ),
     (   running(Page, Number, Thread)
-    ->  send(Thread, Word)
+    ->  send(Thread, Message)
     ;   true
     ).
 
@@ -94,7 +99,21 @@ solve(Text, Number, Page, Former) :-
     thread_get_message(ev3dev_view_goal(begin)),
     view_part_,
     ended(Former),
-    goal_solve(Text, Page, Number, told).
+    open_prolog_stream(ev3dev_view_goals, read, In, []),
+    goal_solve(Text, Page, Number, In, told).
+
+%   Called for each line of In.
+:- public stream_read/2.
+
+stream_read(_, Line) :-
+    thread_self(Me),
+    running(Page, _, Me),
+    flush_output(user_output),
+    view_say_(Page, json([type=reads, what=line])),
+    thread_get_message(ev3dev_view_goal(input(Text))),
+    format(string(Said), "|: ~w", [Text]),
+    note(goal, Said),
+    string_concat(Text, "\n", Line).
 
 %   There is nobody who could answer the tracer.
 :- multifile user:prolog_trace_interception/4.
@@ -111,24 +130,22 @@ user:prolog_trace_interception(_, _, _, nodebug) :-
 told(Word) :-
     thread_get_message(ev3dev_view_goal(Word)).
 
-%!  goal_solve(+Text, +Page, +Number, :Next) is det.
+%!  goal_solve(+Text, +Page, +Number, +In, :Next) is det.
 %
-%   Solve a goal, as a part of the program. After an answer that may not be
-%   the last one, call(Next, Word) waits for `more`, for the next one, or
-%   `enough`. An abort is thrown again.
+%   Solve a goal, as a part of the program; it reads from In, which is closed
+%   then. After an answer that may not be the last one, call(Next, Word) waits
+%   for `more`, for the next one, or `enough`. An abort is thrown again.
 
-goal_solve(Text, Page, Number, Next) :-
+goal_solve(Text, Page, Number, In, Next) :-
     format(string(Line), "?- ~w", [Text]),
     note(goal, Line),
     tell_again,
     thread_self(Me),
     catch(setup_call_cleanup(
-              open_string("\n", In),
-              setup_call_cleanup(
-                  true,
-                  solve_(Text, Number, Page, In, Next),
-                  part_ends(Me)),
-              close(In)),
+              true,
+              solve_(Text, Number, Page, In, Next),
+              ( part_ends(Me),
+                close(In, [force(true)]) )),
           Error, unsolved(Error, Text, Page, Number)).
 
 unsolved(error(syntax_error(What), Context), Text, Page, Number) :-
@@ -172,7 +189,6 @@ solve_(Text, Number, Page, In, Next) :-
     with_earlier(Goal0, Names, Goal),
     (   solution(Goal, Last),
         part_ends(Me),
-        say_of_input(In),
         forall(( member(Name=Value, Names), nonvar(Value) ),
                ( retractall(earlier(Name, _)),
                  assertz(earlier(Name, Value)) )),
@@ -186,7 +202,6 @@ solve_(Text, Number, Page, In, Next) :-
         )
     ->  true
     ;   part_ends(Me),
-        say_of_input(In),
         answer(Page, Number, false, "false"),
         forall(failed(Goal), true)
     ).
@@ -218,14 +233,6 @@ solution(Goal, Last) :-
     (   Deterministic == true
     ->  Last = true
     ;   Last = false
-    ).
-
-say_of_input(In) :-
-    (   character_count(In, Count),
-        Count > 0
-    ->  note(warning, "A goal of a page has nothing to read: \c
-                       there is no terminal.")
-    ;   true
     ).
 
 term_string_with_names(Text, Goal, Names) :-

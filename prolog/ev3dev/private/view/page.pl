@@ -217,7 +217,7 @@ line(brick, Name, Page) :-
         refused(Page, brick, Why)
     ).
 line(Word, Rest, Page) :-
-    memberchk(Word, [goal, more, enough]),
+    memberchk(Word, [goal, more, enough, input]),
     !,
     settings(_, _, Goals),
     (   Goals == true
