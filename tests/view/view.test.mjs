@@ -366,7 +366,7 @@ group('what lies over the world', ROOM, '', (it) => {
     await shows(it.page, (s) => s.selected === null && !s.driving, 'none');
     await it.page.mouse.click(...await pixel(it.page, ...robot.true));
     await it.page.click('#drive');
-    await it.page.click('#log-title');
+    await it.page.click('.log-card h2');
     await shows(it.page, (s) => s.selected === null && !s.driving, 'none again');
   });
 

@@ -18,7 +18,7 @@ export class Brick {
   }
 
   key(name) {
-    const button = el('button', { type: 'button', 'data-key': name, title: `Key ${name}`, 'aria-label': `Key ${name}` });
+    const button = el('button', { 'data-key': name, title: `Key ${name}`, 'aria-label': `Key ${name}` });
     // A hand holds it for as long as it is there, at least 0.1 s.
     const hold = () => {
       if (button.disabled || this.held === name) return;

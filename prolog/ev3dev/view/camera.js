@@ -1,6 +1,6 @@
 // The part of the world that is on the canvas. Centimeters, y up.
 
-import { $, nice, text } from './dom.js';
+import { $, nice, text, within } from './dom.js';
 
 export class Camera {
   get view() {
@@ -69,7 +69,7 @@ export class Camera {
 
   zoom(factor, [px, py] = [this.width / 2, this.height / 2]) {
     const [x, y] = this.place([px, py]);
-    const scale = Math.max(0.02, Math.min(60, this.camera.scale * factor));
+    const scale = within(0.02, 60, this.camera.scale * factor);
     this.camera = { x: x - (px - this.width / 2) / scale, y: y + (py - this.height / 2) / scale, scale, own: true };
     this.foot();
     this.draw();

@@ -1,7 +1,8 @@
 // Charts of samples and of the program's own values. A chart has any series; those of one
 // quantity have one scale. The time is that of all charts.
 
-import { $, attribute, brief, clock, download, el, icon, nice, num, pressed, text } from './dom.js';
+import { disc, fill, stroke, trace } from './canvas.js';
+import { $, attribute, brief, clock, download, el, goTo, icon, nice, num, pressed, text, upper, within } from './dom.js';
 import { divider, keep, kept } from './panels.js';
 import { UNITS } from './ports.js';
 
@@ -34,11 +35,7 @@ export class Charts {
     this.zoom = null;
     this.cursor = null;
     this.moment = null;
-    this.spans = SPANS.map(([span, name]) => {
-      const button = el('button', { type: 'button', 'aria-pressed': String(span === this.span) }, name);
-      button.addEventListener('click', () => this.reach(span));
-      return button;
-    });
+    this.spans = SPANS.map(([span, name]) => el('button', { onclick: () => this.reach(span), 'aria-pressed': span === this.span }, name));
     $('spans').append(...this.spans);
     $('chart-live').addEventListener('click', () => this.live());
     $('chart-pause').addEventListener('click', () => this.hold(this.zoom === null));
@@ -192,11 +189,9 @@ export class Charts {
     this.sizes.observe(this.box);
     this.views = shown.map((chart, i) => this.view(chart, parts[i]));
     this.list.replaceChildren(...this.views.map(({ box }) => box));
-    $('series').replaceChildren(...there.filter((chart) => chart.hidden).map((chart) => {
-      const chip = el('button', { type: 'button', title: 'Show this chart again' }, `+ ${title(chart.series.map((name) => this.series(name)).filter(Boolean))}`);
-      chip.addEventListener('click', () => this.edit(() => { delete chart.hidden; }));
-      return chip;
-    }));
+    $('series').replaceChildren(...there.filter((chart) => chart.hidden).map((chart) => el('button', {
+      onclick: () => this.edit(() => { delete chart.hidden; }), title: 'Show this chart again',
+    }, `+ ${title(chart.series.map((name) => this.series(name)).filter(Boolean))}`)));
     for (const view of this.views) {
       this.sizes.observe(view.plot);
       this.sights.observe(view.box);
@@ -210,7 +205,7 @@ export class Charts {
     const name = title(series);
     view.keys = series.map((each) => {
       const value = document.createTextNode('');
-      const key = el('button', { type: 'button', class: 'key', 'aria-pressed': String(!chart.off?.includes(each.name)), title: 'Hide or show this series' },
+      const key = el('button', { class: 'key', 'aria-pressed': !chart.off?.includes(each.name), title: 'Hide or show this series' },
         el('i', { class: this.paints.get(each.name) < COLORS ? 'paint' : 'paint ring' }), each.label, el('b', { class: 'num' }, value), el('span', { class: 'unit' }, each.unit));
       key.style.setProperty('--plot', `var(--${color(this.paints.get(each.name))})`);
       key.addEventListener('click', () => this.edit(() => {
@@ -220,8 +215,7 @@ export class Charts {
       }));
       return { value, key };
     });
-    view.more = el('button', { type: 'button', class: 'tool chart-more', title: 'What this chart shows', 'aria-label': `What the chart of ${name || 'nothing'} shows`, 'aria-haspopup': 'true' }, icon('more'));
-    view.more.addEventListener('click', () => this.menu(chart));
+    view.more = el('button', { class: 'tool chart-more', title: 'What this chart shows', 'aria-label': `What the chart of ${name || 'nothing'} shows`, 'aria-haspopup': 'true', onclick: () => this.menu(chart) }, icon('more'));
     view.bar = divider(`Height of the chart of ${name || 'nothing'}`, {
       get: () => view.box.offsetHeight, least: LOWEST, most: () => 600,
       set: (height) => this.edit(() => {
@@ -251,8 +245,7 @@ export class Charts {
     const rank = (name) => (given(name) ? 0 : name.startsWith('in') ? 1 : name.startsWith('out') ? 2 : 3);
     const names = this.names().sort((a, b) => rank(a) - rank(b));
     const entry = (words, act, props) => {
-      const button = el('button', { type: 'button', ...props }, words);
-      button.addEventListener('click', () => act(button));
+      const button = el('button', { onclick: () => act(button), ...props }, words);
       return button;
     };
     const ends = (words, act) => entry(words, () => {
@@ -265,7 +258,7 @@ export class Charts {
         attribute(button, 'aria-checked', on);
         this.edited = chart;
         this.edit(() => { chart.series = on ? [...chart.series, name] : chart.series.filter((each) => each !== name); });
-      }, { class: 'check', role: 'checkbox', 'aria-checked': String(chart.series.includes(name)) })),
+      }, { class: 'check', role: 'checkbox', 'aria-checked': chart.series.includes(name) })),
       ends('Hide this chart', () => this.edit(() => { chart.hidden = true; })),
       ends('Remove this chart', () => this.edit((charts) => charts.splice(charts.indexOf(chart), 1))),
       ends('Reset all charts', () => {
@@ -277,7 +270,7 @@ export class Charts {
     document.body.append(menu);
     menu.showPopover();
     menu.style.left = `${Math.max(8, near.right - menu.offsetWidth)}px`;
-    menu.style.top = `${Math.max(8, Math.min(near.bottom + 4, innerHeight - menu.offsetHeight - 8))}px`;
+    menu.style.top = `${within(8, near.bottom + 4, innerHeight - menu.offsetHeight - 8)}px`;
     menu.querySelector('button').focus();
     menu.addEventListener('keydown', (event) => {
       if (event.key !== 'Escape') return;
@@ -308,8 +301,8 @@ export class Charts {
 
   get latest() {
     const { samples, values } = this.model;
-    let latest = samples.time[samples.time.length - 1] ?? 0;
-    for (const series of values.values()) latest = Math.max(latest, series.time[series.time.length - 1] ?? 0);
+    let latest = samples.time.at(-1) ?? 0;
+    for (const series of values.values()) latest = Math.max(latest, series.time.at(-1) ?? 0);
     return latest;
   }
 
@@ -318,7 +311,7 @@ export class Charts {
     if (still) return still;
     const live = this.until(this.latest);
     if (this.moment === null || (this.moment >= live[0] && this.moment <= live[1])) return live;
-    return this.until(Math.max(this.moment, Math.min(this.latest, this.moment + this.span / 2)));
+    return this.until(within(this.moment, this.latest, this.moment + this.span / 2));
   }
 
   /** The span that ends there. */
@@ -358,7 +351,7 @@ export class Charts {
   /** Back to what is now. */
   live() {
     this.hold(false);
-    if (this.moment !== null) tell(null);
+    if (this.moment !== null) goTo(null);
   }
 
   // ------------------------------------------------------------- hands
@@ -389,7 +382,7 @@ export class Charts {
       this.grip = this.stretch = null;
       if (!was || was.pan) return;
       if (range) this.shift(this.about((range[0] + range[1]) / 2, range[1] - range[0]));
-      else if (event.target !== this.axis) tell(was.time);
+      else if (event.target !== this.axis) goTo(was.time);
     });
     box.addEventListener('pointercancel', () => { this.grip = this.stretch = null; });
     box.addEventListener('pointerleave', () => { if (!this.keyed) this.point(null); });
@@ -414,7 +407,7 @@ export class Charts {
     } else if (event.key === '+' || event.key === '=') this.shift(this.about(at, (to - from) / 2));
     else if (event.key === '-') this.shift(this.about(at, (to - from) * 2));
     else if (event.key === '0') this.live();
-    else if (event.key === 'Enter') tell(at);
+    else if (event.key === 'Enter') goTo(at);
     else return;
     event.preventDefault();
     event.stopPropagation();
@@ -433,7 +426,7 @@ export class Charts {
   timeAt(event) {
     const [from, to] = this.range;
     const share = (event.clientX - this.axis.getBoundingClientRect().left - this.left) / this.wide;
-    return from + Math.max(0, Math.min(1, share)) * (to - from);
+    return from + within(0, 1, share) * (to - from);
   }
 
   point(time) {
@@ -540,12 +533,9 @@ export class Charts {
     c.textBaseline = 'middle';
     c.textAlign = 'right';
     const upright = (time, name, thick) => {
-      c.strokeStyle = this.color(name);
-      c.lineWidth = thick;
-      c.beginPath();
-      c.moveTo(Math.round(x(time)) + 0.5, 0);
-      c.lineTo(Math.round(x(time)) + 0.5, height);
-      c.stroke();
+      const at = Math.round(x(time)) + 0.5;
+      trace(c, [[at, 0], [at, height]]);
+      stroke(c, this.color(name), thick);
     };
     for (const time of times) upright(time, 'line', 1);
     const scales = new Map();
@@ -583,10 +573,8 @@ export class Charts {
       const { value: node } = view.keys[i];
       if (node.data !== words) node.data = words;
       if (at === null || value === null || !ys.has(each) || at < from || at > to) return;
-      c.fillStyle = this.color(color(this.paints.get(each.name)));
-      c.beginPath();
-      c.arc(x(at), ys.get(each)(value), 3.5, 0, 7);
-      c.fill();
+      disc(c, x(at), ys.get(each)(value), 3.5);
+      fill(c, this.color(color(this.paints.get(each.name))));
     });
   }
 
@@ -601,12 +589,8 @@ export class Charts {
     for (let value = Math.ceil(low / shown - 1e-9) * shown; value <= high + step * 1e-6; value += shown) {
       const at = Math.round(y(value)) + 0.5;
       if (edge === SCALE) {
-        c.lineWidth = 1;
-        c.strokeStyle = this.color(Math.abs(value) < step * 1e-6 ? 'off' : 'line');
-        c.beginPath();
-        c.moveTo(this.left, at);
-        c.lineTo(width - RIGHT, at);
-        c.stroke();
+        trace(c, [[this.left, at], [width - RIGHT, at]]);
+        stroke(c, this.color(Math.abs(value) < step * 1e-6 ? 'off' : 'line'), 1);
       }
       c.fillStyle = this.color(several ? color(this.paints.get(all[0].name)) : 'soft');
       c.fillText(num(value, Math.max(0, Math.min(6, -Math.floor(Math.log10(shown) + 1e-9)))), edge, at);
@@ -705,17 +689,6 @@ export class Charts {
   }
 }
 
-/** How many of the sorted numbers are at most n. */
-function upper(sorted, n) {
-  let [low, high] = [0, sorted.length];
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (sorted[middle] <= n) low = middle + 1;
-    else high = middle;
-  }
-  return low;
-}
-
 function axisTime(time, step) {
   if (time < 60 || step < 1) return num(time, step < 0.1 ? 2 : step < 1 ? 1 : 0);
   return `${Math.floor(time / 60)}:${String(Math.round(time % 60)).padStart(2, '0')}`;
@@ -735,11 +708,6 @@ const valid = (own) => {
 
 /** What its series are, without their ports. */
 const title = (series) => [...new Set(series.map((each) => each.title))].join(', ');
-
-/** A moment for the whole page, in seconds of the run; null for what is now. */
-function tell(t) {
-  document.dispatchEvent(new CustomEvent('ev3dev-time', { detail: { t } }));
-}
 
 /** The value at a time, or the last one. */
 function valueAt({ time: times, values }, time) {

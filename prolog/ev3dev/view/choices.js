@@ -19,7 +19,7 @@ export class Choices {
   /** Entries of the menu of the simulation, which lead to lists. */
   entries() {
     return KINDS.map((kind) => {
-      const button = el('button', { type: 'button' }, `Another ${kind} …`);
+      const button = el('button', {}, `Another ${kind} …`);
       button.addEventListener('click', () => {
         this.wanted = kind;
         this.send('worlds');
@@ -44,7 +44,7 @@ export class Choices {
     const now = kind === 'world' ? this.model.simulated && this.model.name : robot;
     const row = ({ name, from }) => {
       const chosen = name.replace(/\.pl$/, '') === now;
-      const button = el('button', { type: 'button', class: 'radio', role: 'radio', 'aria-checked': String(chosen) }, name);
+      const button = el('button', { class: 'radio', role: 'radio', 'aria-checked': String(chosen) }, name);
       button.addEventListener('click', () => {
         this.hands.close();
         this.send(`choose ${kind} ${from} ${name}`);

@@ -1,11 +1,17 @@
 // STOP, time, driving with the arrow keys, and the menus.
 
-import { $, attribute, download, el, notice, pressed, toggle } from './dom.js';
+import { $, attribute, download, el, notice, pressed, sentence, toggle } from './dom.js';
 import { Choices } from './choices.js';
 import { LAYERS } from './world.js';
 
 const PACES = [['x1', '×1'], ['x2', '×2'], ['x10', '×10'], ['max', 'max']];
 const ARROWS = { ArrowUp: 'ahead', ArrowDown: 'back', ArrowLeft: 'left', ArrowRight: 'right' };
+/** Keys that do the same as a button. */
+const KEYS = {
+  ' ': 'pause', '.': 'step', '+': 'zoom-in', '=': 'zoom-in', '-': 'zoom-out', 0: 'fit', f: 'follow', m: 'measure', b: 'add-box',
+  r: 'reset', e: 'edit', p: 'program-open', d: 'drive', h: 'chart-pause',
+};
+const OF_SIMULATION = new Set(['pause', 'step', 'add-box', 'reset']);
 const JOG_SPEED = 30;
 const JOG_AGAIN = 150;
 
@@ -15,26 +21,20 @@ export class Hands {
     this.held = new Set();
     this.choices = new Choices((line) => wire.send(line), this);
     this.paces = new Map(PACES.map(([pace, name]) => {
-      const button = el('button', { type: 'button', 'aria-pressed': 'false', title: pace === 'max' ? 'As fast as possible' : `${name.slice(1)} times as fast as real` }, name);
-      button.addEventListener('click', () => wire.send(`pace ${pace}`));
-      return [pace, button];
+      const words = pace === 'max' ? 'As fast as possible' : `${name.slice(1)} times as fast as real`;
+      return [pace, el('button', { onclick: () => wire.send(`pace ${pace}`), 'aria-pressed': 'false', title: words }, name)];
     }));
     $('speeds').append(...this.paces.values());
     // At once, and not when the finger is lifted; a click without a finger is a key's.
     $('stop').addEventListener('pointerdown', (event) => event.button === 0 && this.stop());
     $('stop').addEventListener('click', (event) => event.detail === 0 && this.stop());
-    $('reset').addEventListener('click', () => this.reset());
-    $('pause').addEventListener('click', () => this.pause());
-    $('step').addEventListener('click', () => wire.send('step'));
-    $('zoom-in').addEventListener('click', () => world.zoom(1.5));
-    $('zoom-out').addEventListener('click', () => world.zoom(1 / 1.5));
-    $('fit').addEventListener('click', () => world.unfollow(() => world.fit()));
-    $('follow').addEventListener('click', () => this.follow());
-    $('measure').addEventListener('click', () => world.use('measure'));
-    $('add-box').addEventListener('click', () => world.use('add-box'));
-    $('drive').addEventListener('click', () => this.drive(!this.driving));
-    $('layers').addEventListener('click', () => this.menu('layers'));
-    $('more').addEventListener('click', () => this.menu('more'));
+    const acts = {
+      reset: () => this.reset(), pause: () => this.pause(), step: () => wire.send('step'),
+      'zoom-in': () => world.zoom(1.5), 'zoom-out': () => world.zoom(1 / 1.5), fit: () => world.unfollow(() => world.fit()),
+      follow: () => this.follow(), measure: () => world.use('measure'), drive: () => this.drive(!this.driving),
+      'add-box': () => world.use('add-box'), layers: () => this.menu('layers'), more: () => this.menu('more'),
+    };
+    for (const [name, act] of Object.entries(acts)) $(name).addEventListener('click', act);
     world.changed = () => this.tools();
     world.beside = () => this.drive(false);
     for (const button of $('pad').querySelectorAll('[data-jog]')) {
@@ -178,27 +178,13 @@ export class Hands {
       return;
     }
     if (event.repeat || (event.key === ' ' && target.closest('button'))) return;
-    const { world, model } = this;
-    const act = {
-      ' ': () => model?.simulated && this.pause(),
-      '.': () => model?.simulated && this.wire.send('step'),
-      '+': () => world.zoom(1.5),
-      '=': () => world.zoom(1.5),
-      '-': () => world.zoom(1 / 1.5),
-      0: () => world.unfollow(() => world.fit()),
-      f: () => this.follow(),
-      m: () => world.use('measure'),
-      b: () => model?.simulated && world.use('add-box'),
-      r: () => model?.simulated && this.reset(),
-      e: () => $('edit').click(),
-      p: () => $('program-open').click(),
-      d: () => this.drive(!this.driving),
-      delete: () => this.remove(),
-      backspace: () => this.remove(),
-      h: () => this.charts.hold(this.charts.held === null),
-    }[event.key.toLowerCase()];
-    if (!act) return;
-    act();
+    const { model } = this;
+    const key = event.key.toLowerCase();
+    const name = KEYS[key];
+    if (name) {
+      if (model?.simulated || !OF_SIMULATION.has(name)) $(name).click();
+    } else if (key === 'delete' || key === 'backspace') this.remove();
+    else return;
     event.preventDefault();
   }
 
@@ -268,26 +254,23 @@ export class Hands {
   layers() {
     const { world } = this;
     return LAYERS.map(([name, words]) => {
-      const button = el('button', { type: 'button', class: 'check', role: 'checkbox', 'aria-checked': String(world.shown[name]) }, words);
-      button.addEventListener('click', () => {
+      const onclick = () => {
         world.shown[name] = !world.shown[name];
         attribute(button, 'aria-checked', world.shown[name]);
         world.legend();
         world.draw();
-      });
+      };
+      const button = el('button', { onclick, class: 'check', role: 'checkbox', 'aria-checked': world.shown[name] }, words);
       return button;
     });
   }
 
   simulation() {
-    const entry = (words, act) => {
-      const button = el('button', { type: 'button' }, words);
-      button.addEventListener('click', () => {
-        this.close();
-        act();
-      });
-      return button;
+    const onclick = (act) => () => {
+      this.close();
+      act();
     };
+    const entry = (words, act) => el('button', { onclick: onclick(act) }, words);
     const taken = this.model.snapshots ?? [];
     let n = 1;
     while (taken.includes(`snapshot-${n}`)) n += 1;
@@ -314,9 +297,3 @@ export class Hands {
     if ((what === 'move' || what === 'remove') && type === 'done' && id === undefined) this.world.select(null);
   }
 }
-
-function sentence(words) {
-  const first = words[0].toUpperCase() + words.slice(1);
-  return /[.!?]$/.test(first) ? first : `${first}.`;
-}
-

@@ -6,6 +6,7 @@ export const $ = (id) => document.getElementById(id);
     and children. */
 export function el(tag, props = {}, ...children) {
   const element = document.createElement(tag);
+  if (tag === 'button') element.type = tag;
   for (const [name, value] of Object.entries(props)) {
     if (/^(aria-|data-|role$|for$)/.test(name)) element.setAttribute(name, value);
     else if (name === 'class') element.className = value;
@@ -21,10 +22,17 @@ export function icon(name) {
   const svg = document.createElementNS(SVG, 'svg');
   const use = document.createElementNS(SVG, 'use');
   svg.setAttribute('class', 'icon');
+  svg.setAttribute('viewBox', '0 0 20 20');
   svg.setAttribute('aria-hidden', 'true');
   use.setAttribute('href', `#i-${name}`);
   svg.append(use);
   return svg;
+}
+
+// A button of the page has an icon, and the words of its title without the key.
+for (const button of document.querySelectorAll('[data-icon]')) {
+  button.append(icon(button.dataset.icon));
+  button.ariaLabel = button.title.replace(/ \(.*/, '');
 }
 
 /** Writes only what differs, so that nothing is laid out again in vain. */
@@ -43,6 +51,28 @@ export function attribute(element, name, value) {
 export function toggle(element, name, on) {
   if (element.classList.contains(name) !== on) element.classList.toggle(name, on);
 }
+
+/** How many of the sorted things, each at a time, are not after a moment. */
+export function upper(sorted, t, time = (each) => each) {
+  let [low, high] = [0, sorted.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (time(sorted[middle]) <= t) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+/** The number, or the bound that it exceeds. */
+export const within = (least, n, most) => Math.max(least, Math.min(n, most));
+
+/** Words as a sentence. */
+export function sentence(words) {
+  return words[0].toUpperCase() + words.slice(1) + (/[.!?]$/.test(words) ? '' : '.');
+}
+
+/** A moment for the whole page, in seconds of the run; null for what is now. */
+export const goTo = (t) => document.dispatchEvent(new CustomEvent('ev3dev-time', { detail: { t } }));
 
 export function pressed(button, on) {
   attribute(button, 'aria-pressed', on);

@@ -2,8 +2,9 @@
 // until the draft is started in its place. Each change is checked by the program, which knows
 // where the robot can stand; one that is refused is undone.
 
-import { $, attribute, download, el, icon, notice, pressed, text, toggle } from './dom.js';
-import { COLORS, EMPTY, KINDS, along, draftOf, factsOf, named, outside, worldOf } from './things.js';
+import { $, attribute, download, el, icon, notice, pressed, sentence, text, toggle } from './dom.js';
+import { along, disc, fill, trace } from './canvas.js';
+import { COLORS, EMPTY, KINDS, draftOf, factsOf, named, outside, worldOf } from './things.js';
 
 const TOOLS = Object.entries(KINDS).filter(([, { tool }]) => tool).map(([kind, { tool }]) => [kind, tool]);
 const NEAR = 12;
@@ -25,11 +26,7 @@ export class Editor {
   }
 
   build() {
-    const button = (words, act, props = {}) => {
-      const made = el('button', { type: 'button', class: 'tool text', ...props }, words);
-      made.addEventListener('click', act);
-      return made;
-    };
+    const button = (words, onclick, props = {}) => el('button', { class: 'tool text', onclick, ...props }, words);
     const sign = (name, words, act) => button(icon(name), act, { class: 'tool', title: words, 'aria-label': words });
     this.undoing = sign('undo', 'Undo (Ctrl Z)', () => this.undo());
     this.redoing = sign('redo', 'Redo (Ctrl Y)', () => this.redo());
@@ -327,7 +324,7 @@ export class Editor {
       const at = round(place);
       if (this.tool !== 'line') this.drawing = { from: at, to: at };
       else if (!this.drawing) this.drawing = { points: [at], from: at, to: at };
-      else if (same(at, this.drawing.points[this.drawing.points.length - 1])) this.finish();
+      else if (same(at, this.drawing.points.at(-1))) this.finish();
       else this.drawing.points.push(at);
       return true;
     }
@@ -403,17 +400,13 @@ export class Editor {
     c.strokeStyle = paint.blue;
     c.lineWidth = 2 * dot;
     if (thing.kind !== 'start') {
-      c.beginPath();
-      if (thing.points || thing.from) (thing.points ?? [thing.from, thing.to]).forEach(([x, y], i) => (i ? c.lineTo(x, y) : c.moveTo(x, y)));
-      if (thing.kind === 'patch') c.closePath();
-      c.stroke();
-      if (!thing.points && !thing.from) c.stroke(this.world.shape(thing));
+      const points = thing.points ?? (thing.from && [thing.from, thing.to]);
+      if (points) trace(c, points, thing.kind === 'patch');
+      c.stroke(...points ? [] : [this.world.shape(thing)]);
     }
     for (const [x, y] of this.handles(thing)) {
-      c.beginPath();
-      c.arc(x, y, 6 * dot, 0, 7);
-      c.fillStyle = paint.card;
-      c.fill();
+      disc(c, x, y, 6 * dot);
+      fill(c, paint.card);
       c.stroke();
     }
   }
@@ -490,7 +483,7 @@ export class Editor {
     const at = this.fields.contains(document.activeElement) ? [...this.fields.elements].indexOf(document.activeElement) : -1;
     const rows = KINDS[thing.kind].fields.filter((field) => thing.bounds !== null || !/Left|Bottom|Right|Top/.test(field.words)).map((field, i) => this.row(field, thing, i));
     if (typeof this.selected === 'number') {
-      const remove = el('button', { type: 'button', class: 'tool text', title: 'Delete (Delete)' }, 'Delete');
+      const remove = el('button', { class: 'tool text', title: 'Delete (Delete)' }, 'Delete');
       remove.addEventListener('click', () => this.remove());
       rows.push(remove);
     }
@@ -540,8 +533,7 @@ export class Editor {
     this.listKey = key;
     list.style.setProperty('--from', from);
     this.rows.replaceChildren(...rows.map(([which, thing], i) => {
-      const button = el('button', { type: 'button', 'aria-pressed': String(which === this.selected) }, KINDS[thing.kind].words(thing));
-      button.addEventListener('click', () => this.select(which));
+      const button = el('button', { onclick: () => this.select(which), 'aria-pressed': which === this.selected }, KINDS[thing.kind].words(thing));
       return el('li', { 'aria-setsize': things.length, 'aria-posinset': from + i + 1 }, button);
     }));
   }
@@ -561,8 +553,3 @@ function read(kind, typed) {
 
 /** A name as the program takes it. */
 const plain = (name) => (name ?? '').replace(/[^A-Za-z0-9_-]+/g, '_').slice(0, 32);
-
-function sentence(words) {
-  const first = words[0].toUpperCase() + words.slice(1);
-  return /[.!?]$/.test(first) ? first : `${first}.`;
-}

@@ -1,7 +1,7 @@
 // The log: commands with their causes, rules, what the program prints,
 // marks, warnings, goals; and a line for goals.
 
-import { $, clock, download, el, pressed, text, toggle } from './dom.js';
+import { $, clock, download, el, goTo, pressed, text, toggle } from './dom.js';
 
 const KINDS = [['command', 'Commands'], ['rule', 'Rules'], ['golog', 'Golog'], ['output', 'Output'], ['goal', 'Goals'], ['mark', 'Marks'], ['warning', 'Warnings']];
 const MOST = 300;
@@ -19,7 +19,7 @@ export class Log {
     this.history = [];
     this.next = 1;
     this.chips = new Map(KINDS.map(([kind, name]) => {
-      const chip = el('button', { type: 'button', 'aria-pressed': 'true', hidden: true }, name);
+      const chip = el('button', { 'aria-pressed': 'true', hidden: true }, name);
       chip.addEventListener('click', () => {
         if (!this.hidden.delete(kind)) this.hidden.add(kind);
         pressed(chip, !this.hidden.has(kind));
@@ -79,7 +79,7 @@ export class Log {
 
   /** What a frame lacks; if the last line says so already, it is one. */
   leaveOut(lines) {
-    const last = this.rows[this.rows.length - 1];
+    const last = this.rows.at(-1);
     this.left = (last?.kind === 'left' ? this.left : 0) + lines;
     const words = `${this.left} lines are left out here.`;
     if (last?.kind === 'left') text(last.words, (last.line = words));
@@ -110,7 +110,7 @@ export class Log {
   /** The row that a line goes into, as it says the same. */
   same({ key, time }) {
     const recent = this.rows.slice(-LOOK_BACK);
-    const last = recent[recent.length - 1];
+    const last = recent.at(-1);
     return key && recent.find((row) => row.key === key && row.age === this.age && (row === last || time - row.at < IN_TURN));
   }
 
@@ -181,7 +181,7 @@ export class Log {
       this.because(each);
     }
     const t = this.chosen?.start;
-    if (Number.isFinite(t) && this.chosen.age === this.age) this.list.dispatchEvent(new CustomEvent('ev3dev-time', { bubbles: true, detail: { t } }));
+    if (Number.isFinite(t) && this.chosen.age === this.age) goTo(t);
   }
 
   key(event) {
@@ -189,7 +189,7 @@ export class Log {
     if (!step) return;
     const rows = this.rows.filter((row) => !row.box.hidden);
     const at = rows.indexOf(this.chosen);
-    const row = at < 0 ? rows[rows.length - 1] : rows[at + step];
+    const row = at < 0 ? rows.at(-1) : rows[at + step];
     event.preventDefault();
     if (!row) return;
     this.choose(row);
@@ -241,7 +241,7 @@ export class Log {
   refused(why) {
     text($('goal-why'), why);
     $('goal-why').hidden = !why;
-    if (why && !$('goal-text').value) $('goal-text').value = this.history[this.history.length - 1];
+    if (why && !$('goal-text').value) $('goal-text').value = this.history.at(-1);
   }
 
   save() {

@@ -1,6 +1,6 @@
 // The page: takes frames, shows them, and asks for the next.
 
-import { $, clock, el, notice, text, toggle } from './dom.js';
+import { $, clock, el, goTo, notice, text, toggle, within } from './dom.js';
 import { Brick } from './brick.js';
 import { Charts } from './charts.js';
 import { Editor } from './editor.js';
@@ -10,7 +10,7 @@ import { ALL, Model } from './model.js';
 import { Panels } from './panels.js';
 import { Ports } from './ports.js';
 import { Program } from './program.js';
-import { Timeline, goTo } from './timeline.js';
+import { Timeline } from './timeline.js';
 import { Wire } from './wire.js';
 import { World } from './world.js';
 
@@ -172,11 +172,7 @@ function heading() {
 /** The robots to choose from. */
 function robots(bricks) {
   $('bricks').hidden = !bricks;
-  $('bricks').replaceChildren(...(bricks?.names ?? []).map((name) => {
-    const button = el('button', { type: 'button', 'aria-pressed': String(name === bricks.shown) }, name);
-    button.addEventListener('click', () => send(`brick ${name}`));
-    return button;
-  }));
+  $('bricks').replaceChildren(...(bricks?.names ?? []).map((name) => el('button', { onclick: () => send(`brick ${name}`), 'aria-pressed': name === bricks.shown }, name)));
 }
 
 function emptiness() {
@@ -193,7 +189,7 @@ function emptiness() {
 /** The card of the world takes the world's aspect. */
 function layout() {
   const style = document.documentElement.style;
-  const aspect = Math.max(0.6, Math.min(2.4, world.aspect || 1.2));
+  const aspect = within(0.6, 2.4, world.aspect || 1.2);
   style.setProperty('--aspect', aspect.toFixed(4));
   const gap = 12, pad = 16;
   const main = $('main').getBoundingClientRect();

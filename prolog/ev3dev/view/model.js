@@ -52,7 +52,7 @@ export class Model {
   }
 
   get newest() {
-    return this.log.length ? this.log[this.log.length - 1].n : -1;
+    return this.log.length ? this.log.at(-1).n : -1;
   }
 
   append({ columns, units, rows }) {
@@ -63,7 +63,7 @@ export class Model {
       if (i > 0 && !kept.columns.has(name)) kept.columns.set(name, new Array(length).fill(null));
     });
     for (const row of rows) {
-      if (kept.time.length && row[0] <= kept.time[kept.time.length - 1]) continue;
+      if (kept.time.length && row[0] <= kept.time.at(-1)) continue;
       kept.time.push(row[0]);
       for (const [name, values] of kept.columns) {
         const i = columns.indexOf(name);

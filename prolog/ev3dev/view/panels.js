@@ -1,6 +1,6 @@
 // Panels that a hand folds or makes larger, and what the browser keeps of it.
 
-import { $, attribute, el, icon, toggle } from './dom.js';
+import { $, attribute, el, icon, toggle, within } from './dom.js';
 
 const KEPT = 'ev3dev-panels';
 const NAMES = { world: 'World', ports: 'Ports', charts: 'Charts', brick: 'Brick', log: 'Log' };
@@ -90,7 +90,7 @@ export class Panels {
   /** The button that folds a panel. */
   fold(name) {
     const card = this.cards[name];
-    const button = el('button', { type: 'button', class: 'tool fold', 'aria-label': `${NAMES[name]}: folded or open` }, icon('fold'));
+    const button = el('button', { class: 'tool fold', 'aria-label': `${NAMES[name]}: folded or open` }, icon('fold'));
     const show = () => {
       const on = this.folded.has(name);
       toggle(card, 'folded', on);
@@ -124,17 +124,17 @@ export class Panels {
     const { sizes, folded } = this;
     const { style } = document.documentElement;
     const { clientWidth, clientHeight } = $('main');
-    const within = (least, size, most) => `${Math.round(Math.max(least, Math.min(size, most)))}px`;
+    const pixels = (least, size, most) => `${Math.round(within(least, size, most))}px`;
     const set = (name, value) => (value ? style.setProperty(name, value) : style.removeProperty(name));
     const room = clientWidth - 2 * PAD - 2 * GAP - PORTS;
-    const side = sizes.side && Math.max(280, Math.min(sizes.side, room - 300));
+    const side = sizes.side && within(280, sizes.side, room - 300);
     const sideless = folded.has('brick') && folded.has('log');
     set('--side', sideless ? '48px' : side ? `${side}px` : folded.has('ports') && `${SIDE}px`);
-    set('--world', folded.has('ports') ? 'minmax(0, 1fr)' : folded.has('world') && !sizes.world ? 'minmax(0, 2fr)' : within(300, sizes.world ?? world, room - (sideless ? 48 : side ?? SIDE)));
+    set('--world', folded.has('ports') ? 'minmax(0, 1fr)' : folded.has('world') && !sizes.world ? 'minmax(0, 2fr)' : pixels(300, sizes.world ?? world, room - (sideless ? 48 : side ?? SIDE)));
     set('--ports', folded.has('ports') && '48px');
-    set('--row', folded.has('world') ? 'auto' : folded.has('charts') ? '1fr' : within(200, sizes.row ?? row, clientHeight - PAD - GAP - CHARTS));
+    set('--row', folded.has('world') ? 'auto' : folded.has('charts') ? '1fr' : pixels(200, sizes.row ?? row, clientHeight - PAD - GAP - CHARTS));
     set('--charts', folded.has('charts') && !folded.has('world') && 'auto');
-    set('--brick', sizes.brick && within(100, sizes.brick, clientHeight - PAD - GAP - 150));
+    set('--brick', sizes.brick && pixels(100, sizes.brick, clientHeight - PAD - GAP - 150));
     for (const bar of this.bars) bar.tell();
   }
 }

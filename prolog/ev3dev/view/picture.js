@@ -1,10 +1,10 @@
 // The world on the canvas: floor, things, trails, what sensors see, robots, and what hands do.
 
 import { Camera } from './camera.js';
-import { $, el, nice, num } from './dom.js';
-import { KINDS, along } from './things.js';
+import { disc, fill, stroke, trace } from './canvas.js';
+import { $, el, nice, num, upper } from './dom.js';
+import { KINDS, TURN } from './things.js';
 
-export const TURN = Math.PI / 180;
 /** Two dimensions: 95 % of all cases lie within this many standard deviations. */
 const SIGMAS = 2.45;
 /** The seconds of the trail that are drawn clearly. */
@@ -123,9 +123,7 @@ export class Picture extends Camera {
       const [x1, y1, x2, y2] = [Math.max(left, bounds[0]), Math.max(bottom, bounds[1]), Math.min(right, bounds[2]), Math.min(top, bounds[3])];
       for (let x = Math.ceil(x1 / step) * step; x < x2; x += step) { c.moveTo(x, y1); c.lineTo(x, y2); }
       for (let y = Math.ceil(y1 / step) * step; y < y2; y += step) { c.moveTo(x1, y); c.lineTo(x2, y); }
-      c.strokeStyle = this.dark ? 'rgb(255 255 255 / .045)' : 'rgb(20 20 10 / .055)';
-      c.lineWidth = dot;
-      c.stroke();
+      stroke(c, this.dark ? 'rgb(255 255 255 / .045)' : 'rgb(20 20 10 / .055)', dot);
     }
     for (const item of world?.items ?? []) KINDS[item.kind].lay?.(c, item, this);
     if (world?.bounds) {
@@ -164,13 +162,10 @@ export class Picture extends Camera {
       c.shadowColor = this.dark ? 'rgb(0 0 0 / .45)' : 'rgb(50 44 20 / .22)';
       c.shadowBlur = 7 * this.ratio;
       c.shadowOffsetY = 2.5 * this.ratio;
-      c.fillStyle = name === 'robot' ? '#e8a33d' : this.paint[name === 'wall' ? 'wall' : 'block'];
-      c.fill(path);
+      fill(c, name === 'robot' ? '#e8a33d' : this.paint[name === 'wall' ? 'wall' : 'block'], path);
       c.restore();
       if (name === 'wall') continue;
-      c.strokeStyle = this.paint[name === 'selected' ? 'ink' : 'block-edge'];
-      c.lineWidth = (name === 'selected' ? 2 : 1) * this.dot;
-      c.stroke(path);
+      stroke(c, this.paint[name === 'selected' ? 'ink' : 'block-edge'], (name === 'selected' ? 2 : 1) * this.dot, path);
     }
     for (const item of items) {
       if (item.name) this.label(c, item.name, item.x, item.y + (item.r ?? Math.hypot(item.w, item.d) / 2) + 9 * this.dot, this.paint.ink, 600, this.paint.card);
@@ -217,7 +212,7 @@ export class Picture extends Camera {
       c.globalAlpha = 1;
       const recent = { last: null };
       const path = new Path2D();
-      for (let i = after(samples.time, this.model.time - CLEAR); i < end; i += 1) this.extend(recent, path, x, y, i);
+      for (let i = upper(samples.time, this.model.time - CLEAR); i < end; i += 1) this.extend(recent, path, x, y, i);
       this.fades ||= recent.grows;
       if (here && recent.last && Math.hypot(here[0] - recent.last[0], here[1] - recent.last[1]) < 12) path.lineTo(here[0], here[1]);
       c.setLineDash(dash.map((n) => n * this.dot));
@@ -251,21 +246,13 @@ export class Picture extends Camera {
     const { dot } = this;
     c.beginPath();
     points.forEach(([x, y], i) => (i ? c.lineTo(x, y) : c.moveTo(x, y)));
-    c.strokeStyle = this.paint.violet;
-    c.lineWidth = 2 * dot;
-    c.setLineDash([7 * dot, 5 * dot]);
+    stroke(c, this.paint.violet, 2 * dot, null, [7 * dot, 5 * dot]);
+    const [x, y] = points.at(-1);
+    disc(c, x, y, 5 * dot);
+    fill(c, this.paint.card);
     c.stroke();
-    c.setLineDash([]);
-    const [x, y] = points[points.length - 1];
-    c.beginPath();
-    c.arc(x, y, 5 * dot, 0, 7);
-    c.fillStyle = this.paint.card;
-    c.fill();
-    c.stroke();
-    c.beginPath();
-    c.arc(x, y, 2 * dot, 0, 7);
-    c.fillStyle = this.paint.violet;
-    c.fill();
+    disc(c, x, y, 2 * dot);
+    fill(c, this.paint.violet);
   }
 
   /** Cells with a probability each: a belief on a grid, or a map that the robot makes. */
@@ -353,38 +340,24 @@ export class Picture extends Camera {
         if (above) {
           if (!seen.hit) continue;
           const hit = was?.hit ? between(was.hit, seen.hit, this.now.share) : seen.hit;
-          c.beginPath();
-          c.arc(hit[0], hit[1], 3 * dot, 0, 7);
-          c.fillStyle = this.paint.beam;
-          c.fill();
-          c.lineWidth = 1.5 * dot;
-          c.strokeStyle = this.paint.card;
-          c.stroke();
+          disc(c, ...hit, 3 * dot);
+          fill(c, this.paint.beam);
+          stroke(c, this.paint.card, 1.5 * dot);
           continue;
         }
-        c.beginPath();
-        along(c, [[x, y], ...fan], true);
+        trace(c, [[x, y], ...fan], true);
         const reach = Math.max(1, ...fan.map((p) => Math.hypot(p[0] - x, p[1] - y)));
         const fade = c.createRadialGradient(x, y, 0, x, y, reach);
         c.globalAlpha = this.dark ? 0.34 : 0.26;
         fade.addColorStop(0, this.paint.beam);
         fade.addColorStop(1, `color-mix(in srgb, ${this.paint.beam} 30%, transparent)`);
-        c.fillStyle = fade;
-        c.fill();
+        fill(c, fade);
         c.globalAlpha = this.dark ? 0.5 : 0.4;
-        c.lineWidth = dot;
-        c.strokeStyle = this.paint.beam;
-        c.stroke();
+        stroke(c, this.paint.beam, dot);
         c.globalAlpha = 1;
       } else if (seen.kind === 'beacon' && seen.at && !above) {
-        c.beginPath();
-        c.moveTo(at('x'), at('y'));
-        c.lineTo(seen.at[0], seen.at[1]);
-        c.strokeStyle = this.paint.violet;
-        c.lineWidth = dot;
-        c.setLineDash([2 * dot, 4 * dot]);
-        c.stroke();
-        c.setLineDash([]);
+        trace(c, [[at('x'), at('y')], seen.at]);
+        stroke(c, this.paint.violet, dot, null, [2 * dot, 4 * dot]);
       }
     }
   }
@@ -430,12 +403,9 @@ export class Picture extends Camera {
     // Its long axis along the heading h, which is clockwise from y.
     c.ellipse(x, y, a * SIGMAS, Math.max(b * SIGMAS, this.dot), (90 - h) * TURN, 0, 7);
     c.globalAlpha = 0.16 * clear;
-    c.fillStyle = color;
-    c.fill();
+    fill(c, color);
     c.globalAlpha = 0.9 * clear;
-    c.strokeStyle = color;
-    c.lineWidth = 1.2 * this.dot;
-    c.stroke();
+    stroke(c, color, 1.2 * this.dot);
     c.restore();
   }
 
@@ -450,19 +420,13 @@ export class Picture extends Camera {
     // Far away, it is drawn larger than it is, on a disc that says so.
     const small = reach * this.camera.scale < 13;
     if (small && kind !== 'believed') {
-      c.beginPath();
-      c.arc(0, 0, 17 * dot, 0, 7);
-      c.fillStyle = this.dark ? 'rgb(245 196 0 / .2)' : 'rgb(245 196 0 / .34)';
-      c.fill();
+      disc(c, 0, 0, 17 * dot);
+      fill(c, this.dark ? 'rgb(245 196 0 / .2)' : 'rgb(245 196 0 / .34)');
     }
     if (small) c.scale((13 * dot) / reach, (13 * dot) / reach);
     const line = small ? (dot * reach) / (13 * dot) : dot;
     if (kind === 'believed') {
-      c.strokeStyle = this.paint.blue;
-      c.lineWidth = 1.6 * line;
-      c.setLineDash([4 * line, 3 * line]);
-      c.stroke(path);
-      c.setLineDash([]);
+      stroke(c, this.paint.blue, 1.6 * line, path, [4 * line, 3 * line]);
       if (this.apart(x, y, h)) this.nose(c, reach * 0.8, 1.6 * line, this.paint.blue);
       c.restore();
       return;
@@ -474,20 +438,15 @@ export class Picture extends Camera {
       const d = wheel?.d ?? reach * 0.7;
       wheels.roundRect((side * axle) / 2 - 1.2, -d / 2, 2.4, d, 0.8);
     }
-    c.fillStyle = this.dark ? '#8b9096' : '#3a3d42';
-    c.fill(wheels);
+    fill(c, this.dark ? '#8b9096' : '#3a3d42', wheels);
     if (kind === 'ghost') c.globalAlpha = 0.75;
     c.shadowColor = 'rgb(0 0 0 / .25)';
     c.shadowBlur = 6 * this.ratio;
     c.shadowOffsetY = 1.5 * this.ratio;
-    c.fillStyle = kind === 'real' ? this.paint.blue : this.paint.yellow;
-    c.fill(path);
+    fill(c, kind === 'real' ? this.paint.blue : this.paint.yellow, path);
     c.shadowColor = 'transparent';
-    c.strokeStyle = ink;
-    c.lineWidth = 1.4 * line;
-    c.stroke(path);
-    c.fillStyle = 'rgb(28 30 34 / .42)';
-    c.fill(wheels);
+    stroke(c, ink, 1.4 * line, path);
+    fill(c, 'rgb(28 30 34 / .42)', wheels);
     for (const sensor of spec?.sensors ?? []) {
       const at = this.model.port(sensor.port);
       if (at && at.kind !== 'sensor') continue;
@@ -496,12 +455,9 @@ export class Picture extends Camera {
       c.beginPath();
       if (touch) c.roundRect(sensor.x - 4, sensor.y - 0.6, 8, 1.2, 0.6);
       else c.arc(sensor.x, sensor.y, 1.1, 0, 7);
-      c.fillStyle = touch ? (touch.on ? this.paint.red : ink) : spot ? this.tone(spot.color) : ink;
-      c.fill();
+      fill(c, touch ? (touch.on ? this.paint.red : ink) : spot ? this.tone(spot.color) : ink);
       if (spot) {
-        c.lineWidth = Math.min(0.5, 1.4 * line);
-        c.strokeStyle = ink;
-        c.stroke();
+        stroke(c, ink, Math.min(0.5, 1.4 * line));
       }
     }
     this.nose(c, reach, Math.max(1.6 * line, 0.13 * reach), kind === 'real' ? this.paint.card : ink);
@@ -522,9 +478,7 @@ export class Picture extends Camera {
     c.moveTo(-reach * 0.3, reach * 0.2);
     c.lineTo(0, reach * 0.54);
     c.lineTo(reach * 0.3, reach * 0.2);
-    c.strokeStyle = color;
-    c.lineWidth = width;
-    c.stroke();
+    stroke(c, color, width);
   }
 
   drawHands(c) {
@@ -534,18 +488,14 @@ export class Picture extends Camera {
       const handle = this.handle();
       if (handle) {
         const pose = this.model.frame.robot.true;
-        c.beginPath();
-        c.moveTo(pose[0], pose[1]);
-        c.lineTo(handle[0], handle[1]);
+        trace(c, [pose, handle]);
         c.strokeStyle = this.paint.ink;
         c.globalAlpha = 0.5;
         c.lineWidth = dot;
         c.stroke();
         c.globalAlpha = 1;
-        c.beginPath();
-        c.arc(handle[0], handle[1], 6 * dot, 0, 7);
-        c.fillStyle = this.paint.card;
-        c.fill();
+        disc(c, ...handle, 6 * dot);
+        fill(c, this.paint.card);
         c.lineWidth = 2 * dot;
         c.stroke();
       }
@@ -560,15 +510,10 @@ export class Picture extends Camera {
     if (this.measured) {
       const [a, b] = this.measured;
       const end = b ?? this.pointer ?? a;
-      c.strokeStyle = c.fillStyle = this.paint.ink;
-      c.lineWidth = 1.5 * dot;
-      c.beginPath();
-      c.moveTo(a[0], a[1]);
-      c.lineTo(end[0], end[1]);
-      c.stroke();
+      trace(c, [a, end]);
+      stroke(c, c.fillStyle = this.paint.ink, 1.5 * dot);
       for (const [x, y] of [a, end]) {
-        c.beginPath();
-        c.arc(x, y, 3 * dot, 0, 7);
+        disc(c, x, y, 3 * dot);
         c.fill();
       }
       const words = `${num(Math.hypot(end[0] - a[0], end[1] - a[1]), 1)} cm`;
@@ -581,8 +526,7 @@ export class Picture extends Camera {
       const width = c.measureText(words).width + 16;
       c.beginPath();
       c.roundRect(-width / 2, -12, width, 24, 12);
-      c.fillStyle = this.paint.ink;
-      c.fill();
+      fill(c, this.paint.ink);
       c.fillStyle = this.paint.card;
       c.fillText(words, 0, 1);
       c.restore();
@@ -597,15 +541,4 @@ export class Picture extends Camera {
     const [dx, dy] = ahead(pose[2]);
     return [pose[0] + dx * far, pose[1] + dy * far];
   }
-}
-
-/** The first of the sorted times that is not before a moment. */
-function after(times, moment) {
-  let [low, high] = [0, times.length];
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (times[middle] < moment) low = middle + 1;
-    else high = middle;
-  }
-  return low;
 }

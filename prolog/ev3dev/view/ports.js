@@ -1,6 +1,6 @@
 // The eight ports: motors with speed and position, sensors with their value.
 
-import { $, attribute, el, icon, num, text, toggle } from './dom.js';
+import { $, attribute, el, icon, num, text, toggle, within } from './dom.js';
 
 const COLORS = ['none', 'black', 'blue', 'green', 'yellow', 'red', 'white', 'brown'];
 const SWATCH = ['', '#17181a', '#0055bf', '#237841', '#f2cd37', '#c91a09', '#ffffff', '#6b3f22'];
@@ -65,8 +65,7 @@ export class Ports {
     row.plot = el('i', { class: 'plot', hidden: true });
     row.value.prepend(row.plot);
     if (column(port) || this.model.simulated) {
-      const button = el('button', { type: 'button', class: 'tool', title: `More of ${port.port}`, 'aria-label': `More of ${port.port}`, 'aria-haspopup': 'true', 'aria-expanded': 'false' }, icon('more'));
-      button.addEventListener('click', () => this.open(button, port.port));
+      const button = el('button', { class: 'tool', title: `More of ${port.port}`, 'aria-label': `More of ${port.port}`, 'aria-haspopup': 'true', 'aria-expanded': 'false', onclick: () => this.open(button, port.port) }, icon('more'));
       row.acts.append(button);
     }
     return row;
@@ -147,14 +146,13 @@ export class Ports {
     const port = this.model.port(name);
     const menu = el('div', { class: 'menu port-menu', role: 'group', 'aria-label': `Port ${name}` });
     const action = (words, act) => {
-      const made = el('button', { type: 'button' }, words);
-      made.addEventListener('click', () => {
+      const onclick = () => {
         if (typeof act === 'string') this.send(act);
         else act();
         this.close();
         button.focus();
-      });
-      menu.append(made);
+      };
+      menu.append(el('button', { onclick }, words));
     };
     const plot = column(port);
     if (plot) action(this.plotted(plot) ? 'Hide its chart' : 'Show its chart', () => this.plot(plot));
@@ -187,7 +185,7 @@ export class Ports {
     const card = row.closest('.card');
     card.append(menu);
     const top = button.getBoundingClientRect().bottom - card.getBoundingClientRect().top + card.scrollTop;
-    menu.style.top = `${Math.max(8, Math.min(top, card.scrollTop + card.clientHeight - menu.offsetHeight - 8))}px`;
+    menu.style.top = `${within(8, top, card.scrollTop + card.clientHeight - menu.offsetHeight - 8)}px`;
     this.menu = { name, menu, button };
     menu.querySelector('button').focus();
   }

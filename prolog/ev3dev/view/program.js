@@ -13,8 +13,7 @@ export class Program {
     this.marked = [];
     this.here = $('program-open');
     this.here.addEventListener('click', () => this.turn(!this.open));
-    const close = el('button', { type: 'button', class: 'tool', title: 'Back to the ports', 'aria-label': 'Back to the ports' }, icon('close'));
-    close.addEventListener('click', () => this.turn(false));
+    const close = el('button', { class: 'tool', title: 'Back to the ports', 'aria-label': 'Back to the ports', onclick: () => this.turn(false) }, icon('close'));
     this.files = el('select', { 'aria-label': 'File of the program', hidden: true });
     this.files.addEventListener('change', () => this.read(this.files.value));
     this.title = el('h2', { id: 'program-title' }, 'Program');

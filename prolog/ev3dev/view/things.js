@@ -3,12 +3,15 @@
 // Things are items as in docs/view-protocol.md; the start, and the world around everything,
 // count as things here.
 
-const TURN = Math.PI / 180;
+import { along, disc, fill, stroke, trace } from './canvas.js';
+
+export const TURN = Math.PI / 180;
 
 /** The simulator's colors, by the names that facts have for them. */
 export const COLORS = new Map([['black', '#0f0f0f'], ['white', '#ebebeb'], ['red', '#c81919'], ['yellow', '#e6be1e'],
   ['green', '#148232'], ['blue', '#143c96'], ['brown', '#6e3c1e']]);
 
+/** A number with two decimals. */
 export const cm = (n) => Math.round(n * 100) / 100;
 const add = ([x, y], [dx, dy]) => [cm(x + dx), cm(y + dy)];
 const far = ([x1, y1], [x2, y2]) => Math.hypot(x2 - x1, y2 - y1);
@@ -50,16 +53,13 @@ const pointed = {
   points: (thing) => thing.points,
 };
 
+const middle = ({ x, y }) => [[x, y]];
+const fact = (name, ...numbers) => `${name}(${numbers.join(', ')})`;
+
 /** Of a thing that is a point. */
-const placed = { move: moved, turn: null, handles: () => [], take: null, points: (thing) => [[thing.x, thing.y]] };
+const placed = { move: moved, turn: null, handles: () => [], take: null, points: middle };
 
 const corners = (box) => [[1, 1], [1, -1], [-1, -1], [-1, 1]].map(([a, b]) => out(box, [(a * box.w) / 2, (b * box.d) / 2]));
-
-/** A path through points, on a canvas or as a Path2D. */
-export function along(path, points, closed = false) {
-  points.forEach(([x, y], i) => (i ? path.lineTo(x, y) : path.moveTo(x, y)));
-  if (closed) path.closePath();
-}
 
 // Of each kind: `tool`, if the editor can draw it; `solid`, its color if it is an obstacle, with its
 // `path`; else `lay`, if it lies on the floor, or `paint` draws it. `at` is where it is while it is
@@ -86,7 +86,7 @@ export const KINDS = {
     handles: (wall) => [wall.from, wall.to],
     take: (wall, i, place) => ({ ...wall, [i ? 'to' : 'from']: place.map(cm) }),
     points: (wall) => [wall.from, wall.to],
-    fact: (wall) => `wall(${[...wall.from, ...wall.to, ...(wall.thickness === 1 ? [] : [wall.thickness])].join(', ')})`,
+    fact: (wall) => fact('wall', ...wall.from, ...wall.to, ...(wall.thickness === 1 ? [] : [wall.thickness])),
   },
   box: {
     tool: 'Box',
@@ -113,8 +113,8 @@ export const KINDS = {
       const [x, y] = out(box, [(px + qx) / 2, (py + qy) / 2]);
       return { ...box, x: cm(x), y: cm(y), w: Math.max(1, Math.round(Math.abs(px - qx))), d: Math.max(1, Math.round(Math.abs(py - qy))) };
     },
-    points: (box) => [[box.x, box.y]],
-    fact: (box) => `box(${[box.x, box.y, box.w, box.d, ...(box.h ? [box.h] : [])].join(', ')})`,
+    points: middle,
+    fact: (box) => fact('box', box.x, box.y, box.w, box.d, ...(box.h ? [box.h] : [])),
   },
   circle: {
     tool: 'Circle',
@@ -127,18 +127,15 @@ export const KINDS = {
     turn: null,
     handles: (circle) => [[circle.x + circle.r, circle.y]],
     take: (circle, _, place) => ({ ...circle, r: Math.max(1, Math.round(far([circle.x, circle.y], place))) }),
-    points: (circle) => [[circle.x, circle.y]],
-    fact: (circle) => `circle(${[circle.x, circle.y, circle.r].join(', ')})`,
+    points: middle,
+    fact: (circle) => fact('circle', circle.x, circle.y, circle.r),
   },
   line: {
     tool: 'Line',
     hint: 'Click place by place; click the last one twice, or Enter. Or drag.',
     lay: (c, line, picture) => {
-      c.beginPath();
-      along(c, line.points);
-      c.strokeStyle = picture.tone(line.color);
-      c.lineWidth = line.width;
-      c.stroke();
+      trace(c, line.points);
+      stroke(c, picture.tone(line.color), line.width);
     },
     words: (line) => `${capital(named(line.color))} line, ${line.points.length} places`,
     fields: [number('Width', 'width'), color, places],
@@ -150,10 +147,8 @@ export const KINDS = {
     tool: 'Patch',
     closed: true,
     lay: (c, patch, picture) => {
-      c.beginPath();
-      along(c, patch.points, true);
-      c.fillStyle = picture.tone(patch.color);
-      c.fill();
+      trace(c, patch.points, true);
+      fill(c, picture.tone(patch.color));
     },
     words: (patch) => `${capital(named(patch.color))} patch, ${patch.points.length} corners`,
     fields: [color, places],
@@ -175,26 +170,20 @@ export const KINDS = {
         glow.addColorStop(0, `rgb(255 200 40 / ${strength})`);
         glow.addColorStop(0.4, `rgb(255 205 60 / ${strength * 0.3})`);
         glow.addColorStop(1, 'rgb(255 210 80 / 0)');
-        c.fillStyle = glow;
-        c.beginPath();
-        c.arc(at.x, at.y, reach, 0, 7);
-        c.fill();
+        disc(c, at.x, at.y, reach);
+        fill(c, glow);
       }
       const r = Math.max(2.2, 6 * dot);
-      c.beginPath();
-      c.arc(at.x, at.y, r, 0, 7);
-      c.fillStyle = power > 0.01 ? '#fff3c4' : paint.off;
-      c.fill();
-      c.lineWidth = 1.5 * dot;
-      c.strokeStyle = power > 0.01 ? '#b98900' : paint['block-edge'];
-      c.stroke();
+      disc(c, at.x, at.y, r);
+      fill(c, power > 0.01 ? '#fff3c4' : paint.off);
+      stroke(c, power > 0.01 ? '#b98900' : paint['block-edge'], 1.5 * dot);
       if (lamp.port) picture.label(c, lamp.port, at.x, at.y - r - 9 * dot);
     },
     words: (lamp) => `Lamp at ${lamp.x}, ${lamp.y}`,
     fields: [...AT, number('Intensity', 'intensity', '%')],
     between: (a, b) => ({ kind: 'lamp', x: b[0], y: b[1], intensity: 50 }),
     ...placed,
-    fact: (lamp) => `lamp(${[lamp.x, lamp.y, lamp.intensity, ...(lamp.port ? [lamp.port] : [])].join(', ')})`,
+    fact: (lamp) => fact('lamp', lamp.x, lamp.y, lamp.intensity, ...(lamp.port ? [lamp.port] : [])),
   },
   beacon: {
     paint: (c, beacon, at, picture) => {
@@ -203,8 +192,7 @@ export const KINDS = {
       for (const [radius, alpha] of [[6, 1], [11, 0.5], [16, 0.25]]) {
         c.globalAlpha = alpha;
         c.lineWidth = 1.5 * dot;
-        c.beginPath();
-        c.arc(at.x, at.y, radius * dot, 0, 7);
+        disc(c, at.x, at.y, radius * dot);
         c.stroke();
       }
       c.globalAlpha = 1;
@@ -213,7 +201,7 @@ export const KINDS = {
     words: (beacon) => `Beacon ${beacon.channel} at ${beacon.x}, ${beacon.y}`,
     fields: [...AT, number('Channel', 'channel', '')],
     ...placed,
-    fact: (beacon) => `beacon(${[beacon.x, beacon.y, beacon.channel].join(', ')})`,
+    fact: (beacon) => fact('beacon', beacon.x, beacon.y, beacon.channel),
   },
   start: {
     words: (start) => `Start at ${start.x}, ${start.y}, heading ${start.h}`,
@@ -222,8 +210,8 @@ export const KINDS = {
     turn: turned,
     handles: (start, gap, reach) => [handleAhead(start, [0, reach + gap])],
     take: (start, _, place) => ({ ...start, h: degrees([start.x, start.y], place) }),
-    points: (start) => [[start.x, start.y]],
-    fact: (start) => `start(${[start.x, start.y, start.h].join(', ')})`,
+    points: middle,
+    fact: (start) => fact('start', start.x, start.y, start.h),
   },
   around: {
     words: ({ bounds }) => (bounds ? `World of ${cm(bounds[2] - bounds[0])} × ${cm(bounds[3] - bounds[1])}` : 'World without bounds'),

@@ -3,7 +3,7 @@
 // document, whose detail `t` is seconds of the run, or null for now; who dispatches it
 // moves the slider.
 
-import { $, attribute, clock, text, toggle } from './dom.js';
+import { $, attribute, clock, goTo, text, toggle, upper } from './dom.js';
 
 /** The frames that are kept, 11 MB in all: if there are more, every other one of the older half goes. */
 const MOST_FRAMES = 3000;
@@ -13,8 +13,6 @@ const APART = 0.04;
 const SEEN_WITHIN = 0.06;
 const STEP = 0.05;
 const KEPT = ['name', 'world', 'spec', 'path', 'grid', 'screen', 'active'];
-
-export const goTo = (t) => document.dispatchEvent(new CustomEvent('ev3dev-time', { detail: { t } }));
 
 export class Timeline {
   /** `show` is called with what is to be shown from now on. */
@@ -47,7 +45,7 @@ export class Timeline {
 
   keep(model) {
     const { kept } = this;
-    const last = kept[kept.length - 1];
+    const last = kept.at(-1);
     const now = { time: model.time, frame: model.frame };
     for (const name of KEPT) now[name] = model[name];
     if (last && now.time < last.time) return;
@@ -77,8 +75,8 @@ export class Timeline {
   /** The model as it was: what does not change is the present one's. */
   at(t) {
     const { model, kept } = this;
-    const found = kept[Math.max(0, upper(kept, t, (each) => each.time) - 1)];
-    const until = upper(model.samples.time, t, (time) => time);
+    const found = kept[Math.max(0, upper(kept, t + 1e-9, (each) => each.time) - 1)];
+    const until = upper(model.samples.time, t + 1e-9);
     const value = sampled(model.samples, until, t);
     const pose = (names) => {
       const parts = names.map((name) => value(name, true));
@@ -131,17 +129,6 @@ export class Timeline {
     const [top, bottom] = [now.offsetTop - list.offsetTop, now.offsetTop - list.offsetTop + now.offsetHeight];
     list.scrollTop = Math.max(bottom - list.clientHeight, Math.min(list.scrollTop, top));
   }
-}
-
-/** How many of the sorted things are not after a moment. */
-function upper(sorted, t, time) {
-  let [low, high] = [0, sorted.length];
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (time(sorted[middle]) <= t + 1e-9) low = middle + 1;
-    else high = middle;
-  }
-  return low;
 }
 
 /** Values of a column at a moment; poses also between two samples, unless a hand lifted the robot. */

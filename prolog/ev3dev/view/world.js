@@ -1,9 +1,10 @@
 // The world from above. Centimeters, y up, heading 0 along y and clockwise. What it shows is
 // in picture.js, which part of it in camera.js; here are the frames, and the hands.
 
+import { along } from './canvas.js';
 import { $, attribute, el, num, text, toggle } from './dom.js';
-import { Picture, TURN, between } from './picture.js';
-import { KINDS, along } from './things.js';
+import { Picture, between } from './picture.js';
+import { KINDS, TURN, cm } from './things.js';
 
 export const LAYERS = [
   ['floor', 'Centimeter grid'], ['trail', 'Trail'], ['believed', 'Believed pose'],
@@ -13,9 +14,6 @@ const GRAB = 14;
 
 /** How long the program may take to answer that it has put the robot somewhere, in ms. */
 const ANSWERED_WITHIN = 10000;
-
-/** A number as the program gets it. */
-const short = (n) => Number(n.toFixed(2));
 
 export class World extends Picture {
   constructor(send) {
@@ -326,13 +324,13 @@ export class World extends Picture {
       const size = (a, b) => Math.abs(a - b);
       const [w, d] = this.moved ? [size(drag.from[0], drag.to[0]), size(drag.from[1], drag.to[1])] : [20, 20];
       const at = this.moved ? [(drag.from[0] + drag.to[0]) / 2, (drag.from[1] + drag.to[1]) / 2] : drag.from;
-      if (w >= 0.5 && d >= 0.5) this.send(`add box ${short(at[0])} ${short(at[1])} ${short(w)} ${short(d)}`);
+      if (w >= 0.5 && d >= 0.5) this.send(`add box ${cm(at[0])} ${cm(at[1])} ${cm(w)} ${cm(d)}`);
       this.use('move');
     } else if (drag.kind === 'robot' && this.moved) {
       this.putRobot(drag.at);
     } else if (drag.kind === 'item' && this.moved) {
       [drag.item.x, drag.item.y] = [drag.at.x, drag.at.y];
-      this.send(`move ${drag.item.id} ${short(drag.at.x)} ${short(drag.at.y)} ${short(drag.item.h ?? 0)}`);
+      this.send(`move ${drag.item.id} ${cm(drag.at.x)} ${cm(drag.at.y)} ${cm(drag.item.h ?? 0)}`);
     }
     this.told();
     this.draw();
@@ -345,7 +343,7 @@ export class World extends Picture {
 
   /** Puts the robot at a pose. */
   putRobot(pose) {
-    if (!this.send(`place ${pose.map(short).join(' ')}`)) return;
+    if (!this.send(`place ${pose.map(cm).join(' ')}`)) return;
     this.put = { pose, answers: (this.put?.answers ?? 0) + 1, since: performance.now() };
     this.keepPut(this.model.frame);
   }
@@ -384,7 +382,7 @@ export class World extends Picture {
     const { selected, drag } = this;
     let words = '';
     const actions = [];
-    const action = (name, title, act) => actions.push([name, title, act]);
+    const action = (...all) => actions.push(all);
     if (this.tool === 'add-box') words = 'Draw a box';
     else if (this.tool === 'measure') {
       const [a, b] = this.measured ?? [];
@@ -411,11 +409,7 @@ export class World extends Picture {
       return;
     }
     this.toldActions = actions.map((a) => a[0]).join();
-    box.replaceChildren(el('p', {}, words), ...actions.map(([name, title, act]) => {
-      const button = el('button', { type: 'button', class: 'tool text', title }, name);
-      button.addEventListener('click', act);
-      return button;
-    }));
+    box.replaceChildren(el('p', {}, words), ...actions.map(([name, title, onclick]) => el('button', { class: 'tool text', title, onclick }, name)));
   }
 }
 

@@ -19,6 +19,7 @@
 :- use_module('../errors/errors', [throw_error/3]).
 :- use_module('../native/native',
               [planner_end_/1, planner_new_/3, planner_work_/4]).
+:- use_module('../run/waits', [let_page_in/0]).
 
 /** <module> Plans for domains that can be made ground
 
@@ -254,6 +255,7 @@ task_plan(task(Actions, Native), Shortest, Effort, Plan) :-
 
 planned(Planner, States0, Effort, Plan) :-
     planner_work_(Planner, 50000, Progress, States),
+    let_page_in,
     New is States-States0,
     counted_natively(New, 10000, Effort),
     polled(Effort),

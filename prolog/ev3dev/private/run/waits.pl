@@ -6,7 +6,8 @@
             event_period/2,             % -Before, +Period
             in_guard/2,                 % +Name, :Goal
             serve_at_read/0,
-            let_others_go_on/0
+            let_others_go_on/0,
+            let_page_in/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module('../basics/fields',
@@ -246,6 +247,11 @@ yield_if_possible :-
     serve_events/0,
     serve_planned/0,
     yield/0.
+
+%!  let_page_in is det.
+%
+%   The same, also if Prolog runs in no page: between two native calls of a
+%   long computation, which Prolog counts as few inferences.
 
 let_page_in :-
     (   page_turn
