@@ -3,6 +3,7 @@
 
 :- use_module('../support/simulation').
 :- use_module('../support/cases').
+:- use_module('../support/child').
 :- use_module('../support/odd_terms').
 
 % ---------------- WHAT IS CALLED
@@ -110,7 +111,34 @@ wrong(Kind, Seed, Goal-Error) :-
                                           with_output_to(string(_), ignore(Goal))),
                      Error, true) )),
     nonvar(Error),
+    thrown(Kind, Error),
     \+ may_throw(Kind, Goal, Error).
+
+% ---------------- HOW PROLOG PRINTS WHAT IS THROWN
+
+%   What another process can read, once.
+:- dynamic was_thrown/1.
+
+thrown(native, _).
+thrown(public, Error) :-
+    (   acyclic_term(Error),
+        catch(( format(string(Text), "~k", [Error]), term_to_atom(_, Text) ), error(_, _), fail),
+        string_length(Text, Length),
+        Length < 2000,
+        \+ was_thrown(Text)
+    ->  assertz(was_thrown(Text))
+    ;   true
+    ).
+
+%   By a Prolog that knows nothing of the pack; each has a line, or several.
+printed(Errors, Lines) :-
+    findall(Fact, ( member(Error, Errors), format(string(Fact), "error(~q).", [Error]) ), Facts),
+    atomic_list_concat([ "main :- error(Text), term_to_atom(E, Text),
+                                 catch('$messages':translate_message(E, Lines, []), _, fail),
+                                 print_message_lines(user_output, '', Lines), nl, fail.
+                         main." | Facts], '\n', Text),
+    run_program(Text, [goal(main)], exit(0), Output),
+    split_string(Output, "\n", "", Lines).
 
 may_throw(_, _, Error) :-
     of_its_goal(Error).
@@ -182,6 +210,21 @@ silent(false) :-
 
 test(are_no_reason_for_what_is_no_iso_error, true(Wrongs == [])) :-
     all_wrong(public, Wrongs).
+%   Of those above, and of what is wrong with the pack's own words.
+test(are_printed_by_any_prolog, true(Raw == [])) :-
+    findall(Error, was_thrown(Error), Errors),
+    Errors = [_|_],
+    printed(Errors, Lines),
+    findall(Line, ( member(Line, Lines), is_raw(Line) ), Raw).
+test(what_is_raw_is_seen, true(Seen == Lines)) :-
+    printed(["error(foo(x),bar)", "error(type_error(dict,context(c/1,b)),context(p/1,'x'))"], All),
+    exclude(==(""), All, Lines),
+    include(is_raw, Lines, Seen).
+
+is_raw(Line) :-
+    member(Part, ["Unknown error", "Unknown message", "context(", "`dict\' expected"]),
+    sub_string(Line, _, _, _, Part).
+
 test(are_no_reason_for_a_panic, true(Wrongs == [])) :-
     all_wrong(native, Wrongs).
 :- end_tests(odd_terms).

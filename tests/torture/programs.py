@@ -75,7 +75,7 @@ STRUCTURES = {
     "queue": "thread_create((repeat, thread_get_message(G), ignore(G), fail), T, []), "
     "thread_send_message(T, go), note(ready), finish",
     "fork": "again, fork(P), ( P == child -> sleep(0.05), halt ; go, note(ready), finish )",
-    "simulation": "go, sim_start(room, [clock(virtual)]), "
+    "simulation": "go, sim_start(room, [clock(virtual), thinking(brick)]), "
     "thread_create((repeat, us_dist_cm(_, _), wait(0.1), fail), _, []), note(ready), finish",
 }
 SINGLE = ("main", "engine", "clean-up in main", "at_halt")
