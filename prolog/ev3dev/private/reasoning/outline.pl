@@ -116,8 +116,8 @@ counted(Outcome, Node, Number, Numbers0, Numbers) :-
 
 %!  outline(+Items, -Rows) is det.
 %
-%   Rows are those of the Items. Of a run of rows that do the same
-%   the first and the last are there, and same(Count) between them.
+%   Rows are those of the Items. Of rounds of up to 8 rows that do the same the
+%   first and the last are there, and same(Count, Rows) between them.
 
 outline(Items, Rows) :-
     rows(Items, Rows0),
@@ -351,8 +351,13 @@ state_of(exit, true).
 state_of(more, true).
 state_of(fail, false).
 state_of(running, running).
-state_of(exception(ball(Ball)), error(Ball)).
-state_of(exception(none), left).
+state_of(exception(Left), State) :-
+    (   Left = ball(Ball),
+        Ball \== '$aborted',
+        Ball \= unwind(_)
+    ->  State = error(Ball)
+    ;   State = left
+    ).
 
 %   A robot has moved, or a motor has got a command: Prolog takes bindings
 %   back, but not that.
@@ -365,11 +370,12 @@ effect(From, To, Effect) :-
             Pose0 = none,
             Commands0 = 0
         ),
-        (   Pose0 = pose(X0, Y0, H0),
+        Seconds is Time1-Time0,
+        (   Seconds > 0.05,             % longer than a sensor takes
+            Pose0 = pose(X0, Y0, H0),
             Pose1 = pose(X1, Y1, H1),
             abs(X1-X0)+abs(Y1-Y0)+abs(H1-H0) > 0.05
-        ->  Seconds is Time1-Time0,
-            Effect = moved(Seconds)
+        ->  Effect = moved(Seconds)
         ;   Commands1 > Commands0
         ->  Effect = commanded
         ;   Effect = none
@@ -406,46 +412,64 @@ shaped([Row|Rows], [Shape-Row|Shaped]) :-
     shape(Row, Shape),
     shaped(Rows, Shaped).
 
+%   A round of a loop may have several rows.
+
 runs([], []).
-runs([Shape-Row|Shaped], [Row|Rows]) :-
-    run(Shaped, Shape, 0, Count, none, Last, Rest),
-    (   Count > 2
-    ->  Row = row(from: From),
-        Last = row(to: To),
+runs([Shape-Row|Shaped2], Rows) :-
+    Shaped = [Shape-Row|Shaped2],
+    (   between(1, 8, Period),
+        length(Round, Period),
+        append(Round, Shaped1, Shaped),
+        rounds(Shaped1, Round, 0, Count, none, Latest, Rest),
+        Count > 2
+    ->  Round = [_-row(from: From)|_],
+        last(Latest, _-row(to: To)),
         Between is Count-1,
-        Rows = [ row(what: same(Between), goal: none, state: true,
-                     clause: none, note: none, from: From, to: To, below: []),
-                 Last | Rows1 ],
-        runs(Rest, Rows1)
-    ;   runs(Shaped, Rows)
+        Same = row(what: same(Between, Period), goal: none, state: true,
+                   clause: none, note: none, from: From, to: To, below: []),
+        without_shapes(Round, [Same|Rows1], Rows),
+        without_shapes(Latest, Rows2, Rows1),
+        runs(Rest, Rows2)
+    ;   Rows = [Row|Rows1],
+        runs(Shaped2, Rows1)
     ).
 
-run([Shape-Row|Shaped], Shape0, Count0, Count, _, Last, Rest) :-
-    Shape == Shape0,
-    !,
-    Count1 is Count0+1,
-    run(Shaped, Shape0, Count1, Count, Row, Last, Rest).
-run(Shaped, _, Count, Count, Last, Last, Shaped).
+rounds(Shaped, Round, Count0, Count, Latest0, Latest, Rest) :-
+    (   again(Round, Shaped, Latest1, Shaped1)
+    ->  Count1 is Count0+1,
+        rounds(Shaped1, Round, Count1, Count, Latest1, Latest, Rest)
+    ;   Count = Count0,
+        Latest = Latest0,
+        Rest = Shaped
+    ).
+
+again([], Shaped, [], Shaped).
+again([Shape-_|Round], [Shape1-Row|Shaped], [Shape1-Row|Latest], Rest) :-
+    Shape == Shape1,
+    again(Round, Shaped, Latest, Rest).
+
+without_shapes([], Rows, Rows).
+without_shapes([_-Row|Shaped], Rows0, [Row|Rows]) :-
+    without_shapes(Shaped, Rows0, Rows).
 
 shape(Row, Shape) :-
     Row = row(what: What, goal: Goal, state: State, clause: Clause,
-              note: Note, below: Below),
+              below: Below),
     kind(What, Kind),
     functor(Goal, Name, Arity),
     ( State = error(_) -> State1 = error ; State1 = State ),
-    functor(Note, Note1, _),
     findall(Shape1,
             ( member(Row1, Below), \+ is_same(Row1),
               shape(Row1, Shape1) ),
             Shapes0),
     without_repetition(Shapes0, Shapes),
-    term_hash(f(Kind, Name/Arity, State1, Clause, Note1, Shapes), Shape).
+    term_hash(f(Kind, Name/Arity, State1, Clause, Shapes), Shape).
 
 kind(What, Kind) :-
     functor(What, Kind, _).
 
 is_same(Row) :-
-    Row = row(what: same(_)).
+    Row = row(what: same(_, _)).
 
 without_repetition([], []).
 without_repetition([A|As], [A|Bs]) :-

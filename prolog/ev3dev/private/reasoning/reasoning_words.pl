@@ -42,7 +42,7 @@ row_line(Rows, Depth, Line) :-
     member(Row, Rows),
     Row = row(what: What, goal: Goal, state: State, clause: Clause,
               note: Note, from: From, below: Below),
-    (   time_words(From, Time),
+    (   time_words(What, From, Time),
         mark(What, State, Mark),
         once(what(What, Goal, Clause, Text)),
         findall(Remark,
@@ -63,8 +63,9 @@ row_line(Rows, Depth, Line) :-
         row_line(Below, Depth1, Line)
     ).
 
-time_words(Moment, Text) :-
-    (   moment(Moment, Time, _, _)
+time_words(What, Moment, Text) :-
+    (   What \= same(_, _),
+        moment(Moment, Time, _, _)
     ->  format(string(Text), '~t~2f~7|', [Time])
     ;   Text = "       "
     ).
@@ -72,7 +73,7 @@ time_words(Moment, Text) :-
 mark(What, State, Mark) :-
     (   What = ways(_)
     ->  Mark = ?
-    ;   What = same(_)
+    ;   What = same(_, _)
     ->  Mark = ' '
     ;   What == cut
     ->  Mark = !
@@ -92,8 +93,12 @@ what(clause, _, Clause, Text) :-
     ->  true
     ;   Text = "the same clause again"
     ).
-what(same(Count), _, _, Text) :-
-    format(string(Text), '... ~D more that do the same', [Count]).
+what(same(Count, Period), _, _, Text) :-
+    (   Period =:= 1
+    ->  format(string(Text), '... ~D more that do the same', [Count])
+    ;   format(string(Text), '... ~D more rounds of these ~d rows',
+               [Count, Period])
+    ).
 what(deep, Depth, _, Text) :-
     format(string(Text), 'deeper than ~D calls: not recorded', [Depth]).
 what(cut, Goals, _, Text) :-
