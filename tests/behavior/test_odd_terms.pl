@@ -175,6 +175,8 @@ of_its_goal(error(existence_error(procedure, _), _)).
 of_its_goal(error(representation_error(max_procedure_arity), _)).
 of_its_goal(time_limit_exceeded).      % it waits as long as it is asked to
 of_its_goal(error(format(_), _)).
+% Half a pair of UTF-16 cannot be written.
+of_its_goal(error(representation_error(code_point), context(system:format/3, _))).
 % us_dist_cm(in1) < 20, where no condition is meant, is Prolog's comparison
 of_its_goal(error(type_error(evaluable, in1/0), context(system:(<)/2, _))).
 

@@ -39,7 +39,7 @@ const MOST_PAGES: usize = 16;
 /// How long a request may take to come.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// So much of a file is read at once, in bytes.
+/// How many bytes of a file are read at once.
 const PART: u64 = 64 << 10;
 
 /// The largest head of a request.

@@ -110,7 +110,7 @@ keep(Redis, Key, Term) :-
     format(string(Text), '~k', [Term]),
     ask(Redis, set(Key, Text, ex, Seconds), _).
 
-handed_out([], _, _, _, _).
+handed_out([], _Number, _Done, _Redis, _Batch).
 handed_out([Seed|Seeds], Number, Done, Redis, Batch) :-
     (   memberchk(done(Number, _, _), Done)
     ->  true

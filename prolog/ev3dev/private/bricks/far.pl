@@ -68,8 +68,9 @@ far_open(Name, Where, Far) :-
     ).
 
 %   On the brick a shell waits for the end of the connection, too: a worker
-%   that hangs, as after SIGSTOP, does not see it. It is killed a second later,
-%   which stops its motors. Standard input is that of the worker, by fd 3.
+%   that hangs, as after SIGSTOP, does not see it. The shell kills it a second
+%   later, which stops its motors. The worker reads what comes by fd 3.
+%
 %   A process of this machine has a group of its own, so that Ctrl-C does not
 %   reach it. ssh must be able to ask for a password at the terminal; a signal
 %   that is ignored when it starts stays so.
@@ -77,8 +78,8 @@ far_open(Name, Where, Far) :-
 process_of(ssh(Destination), path(sh),
            [ '-c', 'trap "" INT; exec "$@"', sh, ssh, '-T', Destination,
              'exec 3<&0; \c
-              swipl -q -g "use_module(library(ev3dev/worker)),work" -t halt \c
-                  <&3 3<&- & w=$!; \c
+              swipl -q -g "use_module(library(ev3dev/worker)),work" \c
+                  -t halt <&3 3<&- & w=$!; \c
               { while [ -d /proc/$PPID ] && [ -d /proc/$w ]; \c
                 do sleep 1; done; \c
                 [ -d /proc/$w ] && sleep 1 && kill -KILL $w; \c

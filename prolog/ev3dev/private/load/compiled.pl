@@ -120,7 +120,7 @@ use_compiled :-
     load_files(user:Loader, [if(not_loaded), imports([])]).
 use_compiled.
 
-%   Without a foreign library the sources say so (native/no_library.pl).
+%   Without a foreign library the sources say so (no_library.pl).
 
 has_library(Pack) :-
     (   Name = lib
@@ -152,8 +152,9 @@ can_load(Files) :-
           error(resource_error(_), _), fail).
 
 too_few_files :-
-    pack_folder(Pack),
-    atom_concat(Pack, '/prolog/ev3dev/private/native/no_library', File),
+    module_property(ev3dev_compiled, file(This)),
+    file_directory_name(This, Room),
+    atom_concat(Room, '/no_library', File),
     load_files(File, [if(not_loaded), imports([])]),
     ev3dev_no_library:without_library(
         error(resource_error(max_files),

@@ -208,7 +208,8 @@ load_or_say :-
 without_library(Error) :-
     module_property(ev3dev_library_file, file(This)),
     file_directory_name(This, Room),
-    atom_concat(Room, '/no_library', File),
+    file_directory_name(Room, Private),
+    atom_concat(Private, '/load/no_library', File),
     load_files(File, [if(not_loaded), imports([])]),
     ev3dev_no_library:without_library(Error).
 

@@ -56,10 +56,19 @@ reduced(Term, File, Error, Terms) :-
     ->  Clauses \== [],
         followed_by(Clauses, Term, Terms)
     ;   reexports(Term),
-        \+ ( Error = error(resource_error(_), _),
-             \+ ev3dev_compiled:can_load(1) )
+        can_load(Error)
     ->  Terms = [Term|Clauses]
     ;   Terms = Clauses
+    ).
+
+%   Fails if no other file may be open.
+
+can_load(error(Formal, _)) :-
+    (   Formal = resource_error(_)
+    ->  module_property(ev3dev_no_library, file(This)),
+        catch(setup_call_cleanup(open(This, read, In), true, close(In)),
+              error(resource_error(_), _), fail)
+    ;   true
     ).
 
 reexports((:- reexport(_))).
