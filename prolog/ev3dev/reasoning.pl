@@ -38,8 +38,8 @@ false.
 Recorded are the goals in the clauses of the program's own files. What a
 predicate of the pack or of Prolog does inside is not, but the goals of the
 program that it calls are. Other threads are not recorded. The program does
-what it does without a recorder; it takes up to ten times as long to compute.
-docs/reasoning.md is a lesson with it.
+what it does without a recorder; it takes up to ten times as long to compute,
+also by thinking(brick) of sim_start/2. docs/reasoning.md is a lesson with it.
 */
 
 %!  reasoning(:Goal) is nondet.

@@ -116,7 +116,8 @@ as_written(File, Line, Module, Clause, Head, Body, Names) :-
     ;   assertz(text(File, 0, none, [])),
         catch(setup_call_cleanup(
                   open(File, read, In, [encoding(utf8)]),
-                  read_text(In, File, Module),
+                  ( ( peek_char(In, #) -> skip(In, 0'\n) ; true ),
+                    read_text(In, File, Module) ),
                   close(In)), error(_, _), true)
     ),
     text(File, Line, Text, Names),
@@ -126,13 +127,17 @@ as_written(File, Line, Module, Clause, Head, Body, Names) :-
     catch(compiles_to(Head, Body, Clause), error(_, _), fail).
 
 read_text(In, File, Module) :-
-    read_term(In, Term,
-              [ module(Module), variable_names(Names), syntax_errors(dec10),
-                term_position(Position) ]),
+    catch(read_term(In, Term,
+                    [ module(Module), variable_names(Names),
+                      term_position(Position) ]),
+          error(syntax_error(_), _), Term = none),
     (   Term == end_of_file
     ->  true
-    ;   stream_position_data(line_count, Position, Line),
-        assertz(text(File, Line, Term, Names)),
+    ;   (   nonvar(Position)
+        ->  stream_position_data(line_count, Position, Line),
+            assertz(text(File, Line, Term, Names))
+        ;   true
+        ),
         read_text(In, File, Module)
     ).
 
