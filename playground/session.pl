@@ -351,6 +351,14 @@ ev3dev_view_goals:failed(Goal) :-
                           one, type `trace, ~p.`", [Goal, Goal]),
     note(warning, Said).
 
+%   What somebody types who knows nothing.
+:- redefine_system_predicate(user:help).
+
+user:help :-
+    ev3dev_playground:note(output,
+                           "help(go_cm). explains a predicate, and \c
+                            apropos(distance). finds those about a word.").
+
 %   A program may end itself, not Prolog.
 :- redefine_system_predicate(user:halt).
 :- redefine_system_predicate(user:halt(_)).

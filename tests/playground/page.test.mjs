@@ -251,6 +251,9 @@ describe('the playground', () => {
     await page.keyboard.press('Escape');
     await said(page, /^stopped/);
     await idle(page);
+    await ask(page, 'help.');
+    await said(page, /^help\(go_cm\)\. explains/);
+    await idle(page);
     await ask(page, 'help(go_cm).');
     await said(page, /Go straight on for Distance cm/);
     await idle(page);

@@ -1157,6 +1157,13 @@ test(without_a_program_there_is_no_text) :-
           refused(Page, "program", "No program is loaded."),
           refused(Page, "program /etc/passwd", "no file of the program"),
           done(Page, "program off") )).
+test(what_is_plugged_in_while_no_program_runs_is_there_at_once) :-
+    in_room(Top, _,
+        ( Top = top(_, _, Page),
+          done(Page, "unplug outB"),
+          done(Page, "plug outB"),
+          query(Top, "motor_run(outB, 20), writeln(runs)."),
+          printed(Top, "runs") )).
 test(the_text_of_the_program_and_where_it_is) :-
     square(Text),
     with_program(Top, Text, File,

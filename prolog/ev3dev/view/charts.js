@@ -59,7 +59,7 @@ export class Charts {
     }, true);
   }
 
-  // ------------------------------------------------------------- series
+  // ---------------- series
 
   /** All there are, by name: `=` and a value of the program, `@` and what it watches, columns. */
   names() {
@@ -115,7 +115,7 @@ export class Charts {
     });
   }
 
-  // ------------------------------------------------------------- which charts
+  // ---------------- which charts
 
   /** Before any hand: what the program names, what it reads, the wheels' speeds. */
   automatic(names) {
@@ -231,7 +231,7 @@ export class Charts {
     return view;
   }
 
-  // ------------------------------------------------------------- the menu of a chart
+  // ---------------- the menu of a chart
 
   add() {
     const chart = { series: [] };
@@ -297,7 +297,7 @@ export class Charts {
     this.arrange();
   }
 
-  // ------------------------------------------------------------- time
+  // ---------------- time
 
   get latest() {
     const { samples, values } = this.model;
@@ -354,7 +354,7 @@ export class Charts {
     if (this.moment !== null) goTo(null);
   }
 
-  // ------------------------------------------------------------- hands
+  // ---------------- hands
 
   listen() {
     const { box } = this;
@@ -452,7 +452,7 @@ export class Charts {
     }));
   }
 
-  // ------------------------------------------------------------- drawing
+  // ---------------- drawing
 
   resize() {
     this.ratio = devicePixelRatio || 1;
@@ -666,7 +666,7 @@ export class Charts {
     c.setLineDash([]);
   }
 
-  // ------------------------------------------------------------- CSV
+  // ---------------- CSV
 
   /** All samples and values, a line for each moment. */
   csv() {

@@ -18,14 +18,11 @@ export class Choices {
 
   /** Entries of the menu of the simulation, which lead to lists. */
   entries() {
-    return KINDS.map((kind) => {
-      const button = el('button', {}, `Another ${kind} …`);
-      button.addEventListener('click', () => {
-        this.wanted = kind;
-        this.send('worlds');
-      });
-      return button;
-    });
+    const onclick = (kind) => () => {
+      this.wanted = kind;
+      this.send('worlds');
+    };
+    return KINDS.map((kind) => el('button', { onclick: onclick(kind) }, `Another ${kind} …`));
   }
 
   /** What the program answered; whether it was a question of ours. */
@@ -44,12 +41,11 @@ export class Choices {
     const now = kind === 'world' ? this.model.simulated && this.model.name : robot;
     const row = ({ name, from }) => {
       const chosen = name.replace(/\.pl$/, '') === now;
-      const button = el('button', { class: 'radio', role: 'radio', 'aria-checked': String(chosen) }, name);
-      button.addEventListener('click', () => {
+      const onclick = () => {
         this.hands.close();
         this.send(`choose ${kind} ${from} ${name}`);
-      });
-      return button;
+      };
+      return el('button', { onclick, class: 'radio', role: 'radio', 'aria-checked': chosen }, name);
     };
     const all = kind === 'world' ? worlds : robots;
     const group = (from, words) => {

@@ -123,7 +123,7 @@ export class Hands {
     this.world.told();
   }
 
-  // ------------------------------------------------------------- driving
+  // ---------------- driving
 
   drive(on) {
     this.driving = on;
@@ -157,7 +157,7 @@ export class Hands {
     for (const way of [...this.held]) this.jog(way, false);
   }
 
-  // ------------------------------------------------------------- keys
+  // ---------------- keys
 
   key(event) {
     if (event.key === 'Escape') {
@@ -224,7 +224,7 @@ export class Hands {
     });
   }
 
-  // ------------------------------------------------------------- menus
+  // ---------------- menus
 
   menu(name) {
     const open = $(`${name}-menu`).hidden;

@@ -55,7 +55,7 @@ export class Editor {
     );
   }
 
-  // ------------------------------------------------------------- open and close
+  // ---------------- open and close
 
   enter(model) {
     this.model = model;
@@ -116,7 +116,7 @@ export class Editor {
     return picture;
   }
 
-  // ------------------------------------------------------------- changes
+  // ---------------- changes
 
   thing(which = this.selected, draft = this.drawn ?? this.draft) {
     if (which === 'around' || which === 'start') return draft[which];
@@ -226,7 +226,7 @@ export class Editor {
     this.render();
   }
 
-  // ------------------------------------------------------------- files
+  // ---------------- files
 
   named() {
     const name = plain(this.name.value);
@@ -277,7 +277,7 @@ export class Editor {
     this.render();
   }
 
-  // ------------------------------------------------------------- the canvas
+  // ---------------- the canvas
 
   pick(kind, byKey) {
     this.stopDrawing();
@@ -411,7 +411,7 @@ export class Editor {
     }
   }
 
-  // ------------------------------------------------------------- the keyboard
+  // ---------------- the keyboard
 
   key(event) {
     const { key, target } = event;
@@ -443,7 +443,7 @@ export class Editor {
     event.stopPropagation();
   }
 
-  // ------------------------------------------------------------- the card
+  // ---------------- the card
 
   select(which) {
     if (this.selected === which) return;
@@ -482,11 +482,8 @@ export class Editor {
     this.fieldsKey = key;
     const at = this.fields.contains(document.activeElement) ? [...this.fields.elements].indexOf(document.activeElement) : -1;
     const rows = KINDS[thing.kind].fields.filter((field) => thing.bounds !== null || !/Left|Bottom|Right|Top/.test(field.words)).map((field, i) => this.row(field, thing, i));
-    if (typeof this.selected === 'number') {
-      const remove = el('button', { class: 'tool text', title: 'Delete (Delete)' }, 'Delete');
-      remove.addEventListener('click', () => this.remove());
-      rows.push(remove);
-    }
+    const remove = { class: 'tool text', title: 'Delete (Delete)', onclick: () => this.remove() };
+    if (typeof this.selected === 'number') rows.push(el('button', remove, 'Delete'));
     this.fields.replaceChildren(...rows);
     attribute(this.fields, 'aria-label', KINDS[thing.kind].words(thing));
     if (at >= 0) this.fields.elements[Math.min(at, this.fields.elements.length - 1)]?.focus();

@@ -147,7 +147,7 @@ export class Log {
     if (row.causes.length) text(row.why, row === this.chosen ? `why: ${row.causes.join('\nwhich was for: ')}` : 'why?');
   }
 
-  // ------------------------------------------------------------- the filter
+  // ---------------- the filter
 
   passes(row) {
     const about = $('log-about').value;
@@ -169,7 +169,7 @@ export class Log {
     $('log-about').hidden = false;
   }
 
-  // ------------------------------------------------------------- one line
+  // ---------------- one line
 
   /** Chooses a line, or none: it says why, and when it was. */
   choose(row) {
@@ -196,7 +196,7 @@ export class Log {
     row.box.focus();
   }
 
-  // ------------------------------------------------------------- goals
+  // ---------------- goals
 
   /** A goal is typed; what becomes of it comes in the log. */
   ask(goal) {

@@ -68,7 +68,7 @@ const scenes = [ports, brick, program];
 const panels = [hands, log, charts];
 const arranged = new Panels(layout);
 
-// ----------------------------------------------------------------- the line
+// ---------------- the line
 
 function state(name) {
   if (name === 'lost' && phase === 'refused') return;
@@ -149,7 +149,7 @@ function draw(time) {
   if (more && !animation) animation = requestAnimationFrame(draw);
 }
 
-// ----------------------------------------------------------------- the top
+// ---------------- the top
 
 function heading() {
   const { frame: now } = model;
@@ -184,7 +184,7 @@ function emptiness() {
   text($('world-empty'), words);
 }
 
-// ----------------------------------------------------------------- layout
+// ---------------- layout
 
 /** The card of the world takes the world's aspect. */
 function layout() {
@@ -205,7 +205,7 @@ function layout() {
 
 new ResizeObserver(layout).observe($('main'));
 
-// ----------------------------------------------------------------- state()
+// ---------------- state()
 
 /** What is drawn, for tests and for other programs: a canvas cannot be read. */
 function shown() {

@@ -31,7 +31,7 @@ export class Timeline {
     return Number(this.slider.value) >= Number(this.slider.max) - STEP;
   }
 
-  // ------------------------------------------------------------- what is kept
+  // ---------------- what is kept
 
   take(model) {
     this.model = model;
@@ -59,7 +59,7 @@ export class Timeline {
     return Math.min(this.kept[0]?.time ?? 0, this.model.samples.time[0] ?? Infinity);
   }
 
-  // ------------------------------------------------------------- going back
+  // ---------------- going back
 
   go(t) {
     if (!this.model) return;
@@ -101,7 +101,7 @@ export class Timeline {
     return past;
   }
 
-  // ------------------------------------------------------------- the bar
+  // ---------------- the bar
 
   describe() {
     const { slider, model, t } = this;
@@ -115,7 +115,7 @@ export class Timeline {
     text($('time-text'), words);
     attribute(slider, 'aria-valuetext', t === null ? `now, ${clock(last)} seconds` : `${clock(t)} seconds`);
     attribute($('time-live'), 'aria-pressed', t === null);
-    slider.style.setProperty('--share', last > first ? ((t ?? last) - first) / (last - first) : 1);
+    slider.style.setProperty('--share', last > first ? ((t ?? last) - first) / (last - first) : 0);
   }
 
   /** The log shows the line of that time. */

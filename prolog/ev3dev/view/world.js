@@ -48,7 +48,7 @@ export class World extends Picture {
     this.listen();
   }
 
-  // ------------------------------------------------------------- the frame
+  // ---------------- the frame
 
   /** True and believed pose, those that there are. */
   poses() {
@@ -167,7 +167,7 @@ export class World extends Picture {
     }
   }
 
-  // ------------------------------------------------------------- hands
+  // ---------------- hands
 
   listen() {
     const { canvas } = this;

@@ -148,6 +148,11 @@ goal_solve(Text, Page, Number, In, Next) :-
                 close(In, [force(true)]) )),
           Error, unsolved(Error, Text, Page, Number)).
 
+unsolved(rule_asked, _, Page, Number) :-
+    !,
+    answer(Page, Number, error,
+           "A rule is no query: write it into the program, or type [user]. \c
+            before it.").
 unsolved(error(syntax_error(What), Context), Text, Page, Number) :-
     !,
     (   nonvar(Context),
@@ -185,7 +190,8 @@ solve_(Text, Number, Page, In, Next) :-
     set_stream(In, alias(user_input)),
     set_input(In),
     thread_self(Me),
-    term_string_with_names(Text, Goal0, Names),
+    term_string_with_names(Text, Term, Names),
+    query(Term, Goal0),
     with_earlier(Goal0, Names, Goal),
     (   solution(Goal, Last),
         part_ends(Me),
@@ -205,6 +211,19 @@ solve_(Text, Number, Page, In, Next) :-
         answer(Page, Number, false, "false"),
         forall(failed(Goal), true)
     ).
+
+%   Its sign may be typed, too.
+query((?- Query), Query) :-
+    !.
+query((:- Query), Query) :-
+    !.
+query((_ :- _), _) :-
+    !,
+    throw(rule_asked).
+query((_ --> _), _) :-
+    !,
+    throw(rule_asked).
+query(Query, Query).
 
 %   $X is the X of an answer before, as at the toplevel.
 
