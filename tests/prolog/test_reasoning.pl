@@ -61,7 +61,7 @@ port(more, exit).
 test(events_are_those_of_a_meta_interpreter_of_the_source,
      true(Differ-Enough == []-true)) :-
     findall(Count-Differs,
-            ( between(1, 1250, Seed),
+            ( between(1, 1300, Seed),
               compared_events(Seed, Recorded, Interpreted),
               length(Recorded, Count),
               ( Recorded == Interpreted -> Differs = no ; Differs = Seed ) ),

@@ -95,7 +95,7 @@ simple(Vars, Goal) :-
     argument(Vars, B),
     random_member(Goal,
                   [ !, !, V = A, V = A, V == A, V \== A, A @< B, var(V),
-                    nonvar(V), V is 1+2, A < 2, V = B, fail, true,
+                    nonvar(V), V is 1+2, V < 2, V = B, fail, true,
                     throw(t(A)), throw(b), rp_d(V), rp_d(V),
                     assertz(rp_d(A)), retract(rp_d(A)), rp_app(V, _, [a, 1]),
                     rp_app(_, V, [b, c]), rp_len([A, B], V), rp_down(2),
