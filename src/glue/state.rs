@@ -136,14 +136,11 @@ thread_local! {
 /// Has `act` done with the brick that this thread has in use.
 #[inline]
 fn with_current<R>(act: impl FnOnce(&Brick) -> R) -> R {
-    CURRENT.with(|current| {
-        let current = current.borrow();
-        if let Some(brick) = &*current {
-            return act(brick);
-        }
-        drop(current);
-        act(&inherited())
-    })
+    // A thread that ends has none any more.
+    match CURRENT.try_with(|current| current.borrow().clone()) {
+        Ok(Some(brick)) => act(&brick),
+        _ => act(&inherited()),
+    }
 }
 
 #[cold]
@@ -162,7 +159,7 @@ fn inherited() -> Arc<Brick> {
 
 fn set_current(brick: &Arc<Brick>) {
     NUMBER.set(brick.number);
-    CURRENT.set(Some(Arc::clone(brick)));
+    let _ = CURRENT.try_with(|current| current.replace(Some(Arc::clone(brick))));
 }
 
 /// The brick that pages show.

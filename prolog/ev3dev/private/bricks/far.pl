@@ -77,14 +77,14 @@ far_open(Name, Where, Far) :-
 
 process_of(ssh(Destination), path(sh),
            [ '-c', 'trap "" INT; exec "$@"', sh, ssh, '-T', Destination,
-             'exec 3<&0; \c
+             'exec sh -c ''exec 3<&0; \c
               swipl -q -g "use_module(library(ev3dev/worker)),work" \c
                   -t halt <&3 3<&- & w=$!; \c
               { while [ -d /proc/$PPID ] && [ -d /proc/$w ]; \c
                 do sleep 1; done; \c
                 [ -d /proc/$w ] && sleep 1 && kill -KILL $w; \c
               } </dev/null >/dev/null 2>&1 3<&- & \c
-              wait $w'
+              wait $w'''
            ], false) :-
     must_be(text, Destination),
     (   sub_string(Destination, 0, 1, _, "-")
