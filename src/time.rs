@@ -26,18 +26,19 @@ natives! {
         }
     }
 
-    /// thought_begins_(-Inferences): how many this thread has made; fails if they take no time.
+    /// thought_begins_(-Inferences): how many of this thread have not had their time; fails if they
+    /// take none.
     semidet fn "thought_begins_"(context, inferences) as call("ev3_time", 1) {
         if devices().tree().thinking() == 0 {
             return Err(PrologError::Failure);
         }
-        inferences.unify(call.inferences()?)
+        inferences.unify(call.thought()?)
     }
 
     /// thought_nothing_(+Inferences, +Before): what this thread has done since thought_begins_ said
     /// that takes no time, nor do that many inferences before it.
-    semidet fn "thought_nothing_"(context, since, before) as call("ev3_time", 1) {
-        call.thought_nothing(since.get::<u64>()?.saturating_sub(before.get()?))
+    semidet fn "thought_nothing_"(context, thought, before) as call("ev3_time", 1) {
+        call.thought_nothing(thought.get::<u64>()?.saturating_sub(before.get()?))
     }
 
     /// guards_: the program may have guards from now on.

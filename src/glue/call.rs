@@ -212,11 +212,14 @@ impl<'a, C: Prolog> Call<'a, C> {
         }
     }
 
-    /// What this thread is about to do.
+    /// What this thread is about to do. Whether that is asked depends on how busy the machine is, so
+    /// it takes no time.
     fn about(&self) -> PrologResult<String> {
-        let text = self.context.new_term_ref();
-        self.context.ask(pred!("ev3dev_turn_order:about/1"), [&text])?;
-        text.get()
+        self.thinks_nothing(|| {
+            let text = self.context.new_term_ref();
+            self.context.ask(pred!("ev3dev_turn_order:about/1"), [&text])?;
+            text.get()
+        })
     }
 
     /// The device files in use. If neither these nor a tree is chosen yet, asks Prolog to choose.

@@ -18,8 +18,9 @@ const LONG: Duration = Duration::from_millis(500);
 thread_local! {
     /// How many inferences of each engine of this thread, by its number, have had their time.
     static PASSED: RefCell<Vec<(i32, u64)>> = const { RefCell::new(Vec::new()) };
-    /// The inferences when this thread began to wait between two slices of time.
-    static WAITS_SINCE: Cell<Option<u64>> = const { Cell::new(None) };
+    /// The inferences that had not had their time when this thread began to wait between two slices
+    /// of time.
+    static THOUGHT_BEFORE: Cell<Option<u64>> = const { Cell::new(None) };
 }
 
 /// Calls `act` with the inferences of this engine that have had their time, and whether they are
@@ -64,24 +65,46 @@ impl<C: Prolog> Call<'_, C> {
         Ok(())
     }
 
-    /// What it has thought since it had made that many inferences takes no time.
-    pub(crate) fn thought_nothing(&self, since: u64) -> PrologResult<()> {
+    /// How many inferences of this engine have not had their time.
+    pub(crate) fn thought(&self) -> PrologResult<u64> {
+        let inferences = self.inferences()?;
+        Ok(with_passed(|passed, _| inferences.saturating_sub(*passed)))
+    }
+
+    /// What it has thought since [`thought`](Self::thought) answered this takes no time. Such
+    /// times may lie in each other.
+    pub(crate) fn thought_nothing(&self, thought: u64) -> PrologResult<()> {
         let (now, again) = (self.inferences()?, self.inferences()?);
         // To ask for the number is an inference, too: twice here, and once before.
-        with_passed(|passed, _| *passed += again - since + (again - now));
+        let free = (again + (again - now)).saturating_sub(thought);
+        with_passed(|passed, _| *passed = free.max(*passed));
         Ok(())
+    }
+
+    /// Calls Prolog for something that takes no time.
+    pub(crate) fn thinks_nothing<T>(
+        &self,
+        act: impl FnOnce() -> PrologResult<T>,
+    ) -> PrologResult<T> {
+        if devices().tree().thinking() == 0 {
+            return act();
+        }
+        let thought = self.thought()?;
+        let answer = act()?;
+        self.thought_nothing(thought)?;
+        Ok(answer)
     }
 
     /// A slice of a wait begins: what Prolog did since the last one depends on how busy the
     /// machine is.
     pub(crate) fn wait_goes_on(&self) -> PrologResult<()> {
-        WAITS_SINCE.take().map_or(Ok(()), |since| self.thought_nothing(since))
+        THOUGHT_BEFORE.take().map_or(Ok(()), |thought| self.thought_nothing(thought))
     }
 
     /// It ends, and the wait is not over.
     pub(crate) fn wait_pauses(&self) -> PrologResult<()> {
         if devices().tree().thinking() != 0 {
-            WAITS_SINCE.set(Some(self.inferences()?));
+            THOUGHT_BEFORE.set(Some(self.thought()?));
         }
         Ok(())
     }

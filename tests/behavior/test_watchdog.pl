@@ -162,6 +162,17 @@ test(it_is_the_same_each_time,
        true(One-All = One-[_]) ]) :-
     findall(Place, ( between(1, 3, _), place(thinking(brick), Goals, Place) ), Places),
     sort(Places, All).
+test(it_is_the_same_however_often_a_limit_looks, One-All == One-[One]) :-
+    findall(Place,
+            ( member(Every, [1000, 0.05, 0.01, 0.002]),
+              format(string(Goals),
+                     "retractall(ev3dev_time_limits:look_every(_)),
+                      assertz(ev3dev_time_limits:look_every(~w)),
+                      go(30), for_seconds(200, ( us_dist_cm(in1, _), count(3000000) ))", [Every]),
+              place(thinking(brick), Goals, Place) ),
+            Places),
+    sort(Places, All),
+    All = [One|_].
 test(the_watchdog_follows_it, true(abs(X-36) < 1)) :-
     driven(thinking(100000),
            "set_prolog_flag(ev3dev_watchdog, 1), go(30), count(200000), why(outB)", Output),

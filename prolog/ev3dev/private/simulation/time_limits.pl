@@ -55,6 +55,8 @@ most(100000000, 120).
 %   seconds in which it is idle.
 grace(1, 10000000, 10).
 
+%   In seconds. A test looks more often.
+:- dynamic look_every/1.
 look_every(0.2).
 
 %!  within_seconds(+Seconds, :Goal, -How) is semidet.
@@ -211,7 +213,7 @@ remove_alarm(Alarm) :-
 look(Id) :-
     (   thought_begins_(Before)
     ->  looked(Id),
-        thought_nothing_(Before, 2)
+        thought_nothing_(Before, 3)
     ;   looked(Id)
     ).
 
