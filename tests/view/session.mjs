@@ -126,7 +126,7 @@ export async function open(browser, url, { width = 1280, height = 800, scheme = 
   page.said = [];
   page.requests = [];
   page.on('console', (message) => LOST.test(message.text()) || page.said.push(`${message.type()}: ${message.text()}`));
-  page.on('pageerror', (error) => page.said.push(`error: ${error.message}`));
+  page.on('pageerror', (error) => LOST.test(error.message) || page.said.push(`error: ${error.message}`));
   page.on('request', (request) => page.requests.push(request.url()));
   if (!isFirefox) await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }]);
   await page.setViewport({ width, height, deviceScaleFactor: scale, isMobile: phone && !isFirefox, hasTouch: phone && !isFirefox });
