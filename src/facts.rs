@@ -4,7 +4,7 @@ use crate::glue::error::{wrong_because, wrong_type};
 use crate::glue::places::places;
 use crate::glue::terms::Ask as _;
 use ev3_sim::facts::{Fact, Kind, Subject, Value};
-use ev3_sim::{Drawing, Echo, Hull, Part, SpecError, Traits, check_bounds};
+use ev3_sim::{Drawing, Echo, Gripper, Hull, Part, SpecError, Traits, check_bounds};
 use std::str::FromStr;
 use swipl::prelude::*;
 
@@ -112,6 +112,7 @@ fn value<'a, C: QueryableContextType>(
         Kind::Traits => Value::Traits(traits(call, term)?),
         Kind::WheelOptions => wheel_options(call, term)?,
         Kind::MotorOptions => Value::MotorOptions(stops(call, term)?),
+        Kind::GripperOptions => Value::GripperOptions(gripper(call, term)?),
         Kind::EchoOptions => Value::EchoOptions(echo(call, term)?),
     })
 }
@@ -239,6 +240,31 @@ fn echo<'a, C: QueryableContextType>(call: &Call<'a, C>, options: &Term<'a>) -> 
         *field = call.float(value)?;
     }
     Ok(echo)
+}
+
+/// A list of `opening(Cm)`, `force(Newton)`, `torque(NewtonMeter)` or `pivot(Bool)`, and
+/// `lifts(Bool)`.
+fn gripper<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    options: &Term<'a>,
+) -> PrologResult<Gripper> {
+    let mut gripper = Gripper::default();
+    for option in call.list(options)? {
+        let (name, values) = call.compound(&option)?.unwrap_or_default();
+        let [value] = &*values else {
+            return wrong_because(call, "gripper_option", &option, "");
+        };
+        match &*name {
+            "opening" => gripper.opening = call.float(value)?,
+            "force" => gripper.force = call.float(value)?,
+            "torque" => gripper.torque = call.float(value)?,
+            "pivot" if boolean(call, value)? => gripper.torque = 0.0,
+            "pivot" => {}
+            "lifts" => gripper.lifts = boolean(call, value)?,
+            _ => return wrong_because(call, "gripper_option", &option, ""),
+        }
+    }
+    Ok(gripper)
 }
 
 /// What a list of `stops(Min, Max)` says, in degrees.

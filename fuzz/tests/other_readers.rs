@@ -176,6 +176,7 @@ fn a_fenced_program_may_ask_anything() {
         mass: 1.0,
         motors: vec![mount("outB"), mount("outC")],
         sensors: vec![],
+        grippers: vec![],
     };
     let machine = Machine::new(&WorldSpec::default(), &robot, Options::default()).unwrap();
     for path in &PATHS[1..4] {

@@ -71,6 +71,7 @@ unit(far, ['ev3dev/private/bricks/far']).
 unit(worker, ['ev3dev/worker']).
 unit(console, ['ev3dev/console']).
 unit(jog, ['ev3dev/jog']).
+unit(gripper, ['ev3dev/gripper']).
 unit(colors, ['ev3dev/colors']).
 unit(raw, ['ev3dev/raw']).
 unit(rules, ['ev3dev/rules']).

@@ -4,6 +4,7 @@
             sim_collisions/1,           % -Collisions
             sim_thing/4,                % ?Name, -X, -Y, -Heading
             sim_things/1,               % -Things
+            sim_held/1,                 % ?Name
             sim_trace/1,                % -Trace
             sim_svg/1,                  % +File
             sim_mount/1,                % +Directory
@@ -16,8 +17,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(private/files/directory, [directory_path/2, write_file/2]).
 :- use_module(private/native/native,
-              [ sim_collisions_/1, sim_mount_/2, sim_pose_/3, sim_svg_/1,
-                sim_things_/1, sim_trace_/1, sim_unmount_/0 ]).
+              [ sim_collisions_/1, sim_held_/1, sim_mount_/2, sim_pose_/3,
+                sim_svg_/1, sim_things_/1, sim_trace_/1, sim_unmount_/0 ]).
 
 /** <module> Views of the simulation
 
@@ -68,6 +69,15 @@ sim_thing(Name, X, Y, Heading) :-
 
 sim_things(Things) :-
     sim_things_(Things).
+
+%!  sim_held(?Name) is nondet.
+%
+%   True if a gripper of the robot holds the thing called Name, as
+%   sim_thing/4 names it.
+
+sim_held(Name) :-
+    sim_held_(Names),
+    member(Name, Names).
 
 %!  sim_trace(-Trace) is semidet.
 %

@@ -32,7 +32,7 @@ use ev3_os::locked;
 use ev3_sim::facts::{Fact, Subject, culprit};
 use ev3_sim::{
     Action, Clock, Depth, Errno, Event, ItemId, Machine, Options, Pose, RobotSpec, Simulation,
-    SpecError, WorldSpec,
+    SpecError, Thing, WorldSpec,
 };
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
@@ -323,20 +323,25 @@ natives! {
     }
 
     /// sim_things_(-Things): a list of thing(Name, X, Y, Heading).
-    semidet fn "sim_things_"(context, things) {
+    semidet fn "sim_things_"(context, things) as call("sim_things", 1) {
         let simulation = simulation(context)?;
         let machine = simulation.machine();
         let terms = machine.things().iter().map(|thing| {
-            let (pose, item) = (thing.pose(), thing.item());
-            let name = context.new_term_ref();
-            match item.traits().and_then(|traits| traits.name.as_deref()) {
-                Some(given) => unify_atom(&name, given)?,
-                None => name.unify(i64::from(thing.id().0))?,
-            }
+            let (pose, name) = (thing.pose(), thing_name(&call, thing)?);
             term! {context: thing(#&name, #pose.x, #pose.y, #pose.heading)}
         });
         let terms = terms.collect::<PrologResult<Vec<_>>>()?;
         things.unify(terms.as_slice())
+    }
+
+    /// sim_held_(-Names): the names of the things that the robot's grippers hold.
+    semidet fn "sim_held_"(context, names) as call("sim_held", 1) {
+        let simulation = simulation(context)?;
+        let machine = simulation.machine();
+        let things = machine.things().iter();
+        let held = things.filter(|thing| machine.held().any(|held| held == thing.id()));
+        let terms = held.map(|thing| thing_name(&call, thing)).collect::<PrologResult<Vec<_>>>()?;
+        names.unify(terms.as_slice())
     }
 
     /// sim_trace_(-Trace): a list of at(Time, Event).
@@ -417,6 +422,16 @@ fn subject_of<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<Subject> {
         "robot" => Ok(Subject::Robot),
         _ => wrong_value(call, "subject", term),
     }
+}
+
+/// The name of a thing, or its number.
+fn thing_name<'a, C: Prolog>(call: &Call<'a, C>, thing: &Thing) -> PrologResult<Term<'a>> {
+    let (name, item) = (call.context.new_term_ref(), thing.item());
+    match item.traits().and_then(|traits| traits.name.as_deref()) {
+        Some(given) => unify_atom(&name, given)?,
+        None => name.unify(i64::from(thing.id().0))?,
+    }
+    Ok(name)
 }
 
 /// A fact of the vocabulary, checked alone.

@@ -5,7 +5,7 @@ use crate::noise::{Echo, Noise};
 use crate::robot::{Chassis, MotorMount, RobotSpec, SensorMount, Wheel};
 use crate::world::color::Color;
 pub use crate::world::form::{Form, Kind, Value};
-use crate::world::{Drawing, Drawn, Hull, Item, Part, SpecError, THINGS, WorldSpec};
+use crate::world::{Drawing, Drawn, Gripper, Hull, Item, Part, SpecError, THINGS, WorldSpec};
 use ev3_motion::{Bounds, Pose};
 
 /// The subject of a file.
@@ -36,10 +36,12 @@ const SETTINGS: &[Form] = {
     ]
 };
 const OF_ROBOTS: &[Form] = {
-    use Kind::{EchoOptions, Hull, MotorOptions, Number, Port, Text, WheelOptions};
+    use Kind::{EchoOptions, GripperOptions, Hull, MotorOptions, Number, Port, Text, WheelOptions};
     const PORT: (&str, Kind) = ("Port", Port);
     const TYPE: (&str, Kind) = ("Type", Text);
     const SIGMA: (&str, Kind) = ("Sigma", Number);
+    const GRIPPER: &[(&str, Kind)] =
+        &[PORT, ("X", Number), ("Y", Number), ("Options", GripperOptions)];
     const WHEEL: &[(&str, Kind)] = &[PORT, ("Diameter", Number), ("Options", WheelOptions)];
     &[
         Form::with_default("left_wheel", WHEEL),
@@ -52,6 +54,7 @@ const OF_ROBOTS: &[Form] = {
         Form::new("noise", &[PORT, SIGMA, ("Bias", Number)]),
         Form::new("encoder_noise", &[PORT, SIGMA]),
         Form::new("echo", &[PORT, ("Options", EchoOptions)]),
+        Form::with_default("gripper", GRIPPER),
     ]
 };
 
@@ -135,13 +138,17 @@ pub enum Fact {
     Noise(Port, Noise),
     EncoderNoise(Port, f64),
     Echo(Port, Echo),
+    Gripper(Gripper),
 }
 
 impl Fact {
     /// The fact with this name. `None` if its arguments are others than its form says.
     /// Errors: if a world cannot be drawn like that.
     pub fn of(name: &str, arguments: &[Value]) -> Result<Option<Fact>, SpecError> {
-        use Value::{Color, EchoOptions, MotorOptions, Number, Port, Rows, Text, WheelOptions};
+        use Value::{
+            Color, EchoOptions, GripperOptions, MotorOptions, Number, Port, Rows, Text,
+            WheelOptions,
+        };
         if let Some(item) = Item::of(name, arguments) {
             return Ok(Some(Fact::Item(item)));
         }
@@ -190,6 +197,11 @@ impl Fact {
             }
             ("encoder_noise", [Port(port), Number(sigma)]) => Fact::EncoderNoise(*port, *sigma),
             ("echo", [Port(port), EchoOptions(echo)]) => Fact::Echo(*port, *echo),
+            ("gripper", [Port(port), Number(x), Number(y), options @ ..]) => {
+                let given =
+                    if let [GripperOptions(given)] = options { *given } else { Gripper::default() };
+                Fact::Gripper(Gripper { port: *port, at: [*x, *y], ..given })
+            }
             _ => return Ok(None),
         }))
     }
@@ -219,7 +231,8 @@ impl Fact {
             (Fact::Sensor(_), Part::Sensor(index)) => index == sensors,
             (Fact::EncoderNoise(at, _), Part::EncoderNoise(other))
             | (Fact::Noise(at, _), Part::Noise(other))
-            | (Fact::Echo(at, _), Part::Echo(other)) => *at == other,
+            | (Fact::Echo(at, _), Part::Echo(other))
+            | (Fact::Gripper(Gripper { port: at, .. }), Part::Gripper(other)) => *at == other,
             _ => false,
         }
     }
@@ -280,6 +293,7 @@ impl RobotSpec {
     pub fn from_facts(facts: &[Fact]) -> Result<RobotSpec, SpecError> {
         let mut chassis = Chassis::default();
         let (mut motors, mut sensors): (Vec<MotorMount>, Vec<SensorMount>) = Default::default();
+        let mut grippers = Vec::new();
         for fact in facts {
             match fact {
                 Fact::LeftWheel(wheel) => chassis.left = Some(*wheel),
@@ -289,6 +303,7 @@ impl RobotSpec {
                 Fact::Mass(mass) => chassis.mass = Some(*mass),
                 Fact::Motor(motor) => motors.push(motor.clone()),
                 Fact::Sensor(sensor) => sensors.push(sensor.clone()),
+                Fact::Gripper(gripper) => grippers.push(*gripper),
                 Fact::Noise(port, noise) => {
                     for motor in motors.iter_mut().filter(|motor| motor.port == *port) {
                         motor.noise = Some(*noise);
@@ -310,6 +325,6 @@ impl RobotSpec {
                 _ => {}
             }
         }
-        chassis.complete(motors, sensors)
+        chassis.complete(motors, sensors, grippers)
     }
 }

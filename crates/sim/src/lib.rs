@@ -141,6 +141,6 @@ pub use shared::Shared;
 pub use trace::{Action, Collision, Event, Trace};
 pub use world::color::{Color, UnknownColor};
 pub use world::{
-    Cell, Drawing, Drawn, Hull, Item, ItemId, Part, Shape, SpecError, Traits, WorldSpec,
+    Cell, Drawing, Drawn, Gripper, Hull, Item, ItemId, Part, Shape, SpecError, Traits, WorldSpec,
     check_bounds,
 };

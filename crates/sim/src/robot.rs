@@ -3,13 +3,16 @@ use crate::brick::port::Port;
 use crate::motor::{MOTOR_KINDS, MotorKind};
 use crate::noise::{Echo, Noise, TYPICAL_TEETH};
 use crate::sensor::SensorKind;
-use crate::world::{Hull, Part, SpecError};
+use crate::world::{Gripper, Hull, Part, SpecError};
 use ev3_motion::{OUT_OF_RANGE, Pose};
 use std::ops::RangeInclusive;
 
 /// Lengths of a robot, in cm, and its mass, in kg.
 const LENGTHS: RangeInclusive<f64> = 0.01..=1000.0;
 const MASSES: RangeInclusive<f64> = 0.001..=1000.0;
+/// The hold of a gripper, in N and N m.
+const MOST_FORCE: f64 = 100.0;
+const MOST_TORQUE: f64 = 10.0;
 /// The farthest stop, in degrees.
 const MOST_TURN: f64 = 1e6;
 /// A brick without a chassis: its outline in cm, and its mass with batteries in kg.
@@ -95,6 +98,8 @@ pub struct RobotSpec {
     pub motors: Vec<MotorMount>,
     /// Sensors.
     pub sensors: Vec<SensorMount>,
+    /// Grippers.
+    pub grippers: Vec<Gripper>,
 }
 
 impl RobotSpec {
@@ -123,7 +128,8 @@ impl RobotSpec {
             mass: Some(mass),
         };
         parts.validate()?;
-        validate_devices(&self.motors, &self.sensors, wheels)
+        validate_devices(&self.motors, &self.sensors, wheels)?;
+        validate_grippers(&self.grippers, &self.motors)
     }
 }
 
@@ -182,6 +188,7 @@ impl Chassis {
         self,
         motors: Vec<MotorMount>,
         sensors: Vec<SensorMount>,
+        grippers: Vec<Gripper>,
     ) -> Result<RobotSpec, SpecError> {
         self.validate()?;
         let wheels = match self {
@@ -191,16 +198,17 @@ impl Chassis {
             _ => None,
         };
         validate_devices(&motors, &sensors, wheels)?;
+        validate_grippers(&grippers, &motors)?;
         let stays = self.left.is_none() && self.right.is_none() && self.axle.is_none();
         if stays && !(motors.is_empty() && sensors.is_empty()) {
             let hull = self.hull.unwrap_or(BRICK);
             let mass = self.mass.unwrap_or(BRICK_MASS);
-            return Ok(RobotSpec { wheels, hull, mass, motors, sensors });
+            return Ok(RobotSpec { wheels, hull, mass, motors, sensors, grippers });
         }
         let (Some(_), Some(hull), Some(mass)) = (wheels, self.hull, self.mass) else {
             return Err(self.missing());
         };
-        Ok(RobotSpec { wheels, hull, mass, motors, sensors })
+        Ok(RobotSpec { wheels, hull, mass, motors, sensors, grippers })
     }
 
     fn missing(&self) -> SpecError {
@@ -288,6 +296,26 @@ fn validate_devices(
                 "needs a spread that is not below 0, and a bias",
             );
             return Err(error.in_part(Part::Noise(port)).in_part(part));
+        }
+    }
+    Ok(())
+}
+
+fn validate_grippers(grippers: &[Gripper], motors: &[MotorMount]) -> Result<(), SpecError> {
+    for Gripper { port, at, opening, force, torque, .. } in grippers {
+        let motor = motors.iter().find(|motor| motor.port == *port);
+        let is_second = grippers.iter().filter(|other| other.port == *port).count() > 1;
+        let checks = [
+            (is_second, "needs a motor of its own"),
+            (motor.is_none_or(|motor| motor.stops.is_none()), "needs a motor with stops(Min, Max)"),
+            (!at.iter().all(|number| number.abs() <= *LENGTHS.end()), OUT_OF_RANGE),
+            (!LENGTHS.contains(opening), "needs an opening from 0.01 to 1000 cm"),
+            (!(0.0..=MOST_FORCE).contains(force), "needs a force from 0 to 100 N"),
+            (!(0.0..=MOST_TORQUE).contains(torque), "needs a torque from 0 to 10 N m"),
+        ];
+        if let Some((_, reason)) = checks.into_iter().find(|(is_wrong, _)| *is_wrong) {
+            let error = SpecError::new(format!("gripper on {port}"), reason);
+            return Err(error.in_part(Part::Gripper(*port)));
         }
     }
     Ok(())

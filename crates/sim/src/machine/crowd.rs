@@ -147,6 +147,12 @@ fn advance_among_things(machines: &mut [&mut Machine]) -> bool {
             members => ride(members, &begun, pushed),
         }
     }
+    for machine in &mut *machines {
+        machine.turn_grippers(&things);
+    }
+    for thing in &mut things {
+        thing.lift(machines.iter().any(|machine| machine.lifts(thing.id)));
+    }
     share_things(machines, &Arc::new(things));
     has_moved
 }
@@ -195,8 +201,13 @@ fn islands(machines: &[&mut Machine], things: &[Thing]) -> Vec<Option<usize>> {
                 if island.is_some() {
                     continue;
                 }
+                let holds = |robot: usize, thing: usize| {
+                    machines[robot].held().any(|held| held == things[thing].id)
+                };
                 let is_near = match other.checked_sub(count) {
                     None if here < count => groups[here] == groups[other],
+                    None if holds(other, here - count) => true,
+                    Some(thing) if here < count && holds(here, thing) => true,
                     None => near(&outline, machines[other].robot.hull, &machines[other].body.pose),
                     Some(thing) => near(&outline, things[thing].hull, &things[thing].body.pose),
                 };
@@ -229,19 +240,43 @@ fn turn(machines: &mut [&mut Machine]) -> bool {
 
 /// A tick of robots that are near each other or near things, or whose wheels still spin.
 fn ride(machines: &mut [&mut Machine], starts: &[u64], things: Vec<Rider>) {
+    let robots = machines.len();
+    let mut grips: Vec<_> = machines
+        .iter_mut()
+        .enumerate()
+        .flat_map(|(index, machine)| {
+            let grips = std::mem::take(&mut machine.grips);
+            let grippers = machine.robot.grippers.clone();
+            grippers.into_iter().zip(grips).map(move |(gripper, grip)| (index, gripper, grip))
+        })
+        .collect();
+    let mut joints = Vec::new();
+    let mut of_joints = Vec::new();
+    for (place, (index, gripper, grip)) in grips.iter_mut().enumerate() {
+        let thing = things.iter().position(|thing| Some(thing.id) == grip.held());
+        let joint = thing.and_then(|thing| grip.joint(gripper, [*index, robots + thing]));
+        of_joints.extend(joint.is_some().then_some(place));
+        joints.extend(joint);
+    }
     let loads: Vec<_> = machines.iter_mut().map(|machine| machine.loaded()).collect();
     let mut riders: Vec<_> = (machines.iter_mut().zip(&loads))
         .map(|(machine, loads)| machine.rider(id_of(machine.number), loads))
         .chain(things)
         .collect();
-    pair::advance(&mut riders);
-    riders.truncate(starts.len());
+    let off = pair::advance(&mut riders, &mut joints);
+    riders.truncate(robots);
     let after: Vec<_> = riders.into_iter().map(|Rider { omega, hits, .. }| (omega, hits)).collect();
     for ((machine, (omega, hits)), (loads, start_us)) in
         machines.iter_mut().zip(after).zip(loads.iter().zip(starts))
     {
         machine.wheels_turned(omega, hits);
         machine.turn_others(loads, *start_us);
+    }
+    for (place, off) in of_joints.into_iter().zip(off) {
+        grips[place].2.is_off(off);
+    }
+    for (index, _, grip) in grips {
+        machines[index].grips.push(grip);
     }
 }
 

@@ -9,6 +9,7 @@ pub(crate) mod dev;
 mod facts;
 mod files;
 pub(crate) mod film;
+mod grip;
 mod panel;
 mod plugs;
 mod room;
@@ -27,6 +28,7 @@ use crate::brick::remote::{Remote, RemoteButton};
 use crate::brick::screen::Depth;
 use crate::brick::{Battery, Board, Framebuffer, LEDS, Led};
 use crate::machine::film::Film;
+use crate::machine::grip::Grip;
 use crate::machine::room::Room;
 use crate::machine::socket::{Plug, Socket};
 use crate::machine::tree::{Hardware, Tree};
@@ -98,6 +100,7 @@ pub struct Machine {
     things: Arc<Vec<Thing>>,
     thing_obstacles: Arc<Vec<Obstacle>>,
     room: Room,
+    grips: Vec<Grip>,
     panel: Panel,
     /// The touch sensors that a hand holds down, by port.
     held: [bool; Port::ALL.len()],
@@ -115,6 +118,7 @@ impl Machine {
             mass: 1.0,
             motors: Vec::new(),
             sensors: Vec::new(),
+            grippers: Vec::new(),
         };
         Machine::new(&WorldSpec::default(), &robot, Options::default())
     }
@@ -169,6 +173,7 @@ impl Machine {
             things: Arc::default(),
             thing_obstacles: Arc::default(),
             room: Room::ENDLESS,
+            grips: vec![Grip::default(); robot.grippers.len()],
             panel: Panel::new(options.depth),
             held: Default::default(),
             trace: Trace::new(),
@@ -208,6 +213,7 @@ impl Machine {
         }
         self.check_free(&pose)?;
         self.body.place(pose);
+        self.let_go(|_| true);
         self.look_for_room();
         for port in self.robot.wheels.iter().flat_map(Wheels::ports) {
             self.shafts[port.slot()].omega = 0.0;

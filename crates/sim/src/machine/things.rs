@@ -1,10 +1,11 @@
 //! The items of the world, and the things among them that robots push.
+use crate::machine::grip::Grip;
 use crate::machine::room::Room;
 use crate::machine::{Machine, crowd};
 use crate::mechanics::thing::Thing;
 use crate::world::obstacle::Obstacle;
-use crate::world::{Item, ItemId, Part, SpecError};
-use ev3_motion::Pose;
+use crate::world::{Hull, Item, ItemId, Part, SpecError};
+use ev3_motion::{Pose, length, outside};
 use std::borrow::Cow;
 use std::sync::Arc;
 
@@ -52,6 +53,7 @@ impl Machine {
     pub fn remove_item(&mut self, id: ItemId) -> bool {
         let was_there = Arc::make_mut(&mut self.scene).remove(id);
         self.drop_thing(id);
+        self.let_go(|held| held == id);
         self.world_is_changed();
         was_there
     }
@@ -80,6 +82,7 @@ impl Machine {
             }
             return Err(error);
         }
+        self.let_go(|held| held == id);
         self.world_is_changed();
         Ok(true)
     }
@@ -92,6 +95,31 @@ impl Machine {
         thing.set_speeds(speeds);
         self.world_is_changed();
         true
+    }
+
+    /// The numbers of the things that its grippers hold.
+    pub fn held(&self) -> impl Iterator<Item = ItemId> {
+        self.grips.iter().filter_map(Grip::held)
+    }
+
+    /// Whether a gripper holds a thing above the floor.
+    pub(super) fn lifts(&self, id: ItemId) -> bool {
+        let all = self.robot.grippers.iter().zip(&self.grips);
+        let mut lifting = all.filter(|(gripper, _)| gripper.lifts);
+        lifting.any(|(_, grip)| grip.held() == Some(id))
+    }
+
+    /// What was held lies there now.
+    pub(super) fn let_go(&mut self, is_meant: impl Fn(ItemId) -> bool + Copy) {
+        self.grips.iter_mut().for_each(|grip| grip.let_go(is_meant));
+    }
+
+    /// The grippers have turned among these things.
+    pub(super) fn turn_grippers(&mut self, things: &[Thing]) {
+        for (gripper, grip) in self.robot.grippers.iter().zip(&mut self.grips) {
+            let shaft = &mut self.shafts[gripper.port.slot()];
+            grip.turn(gripper, shaft, &self.body.pose, things);
+        }
     }
 
     /// How far robot, things and obstacles are from each other, in cm, where they are nearer than
@@ -196,7 +224,7 @@ impl Machine {
         let Room { from, way } = self.room;
         way == f64::INFINITY || {
             let Pose { x, y, heading } = self.body.pose;
-            let turned = (heading - from.heading).to_radians() * self.robot.hull.reach();
+            let turned = (heading - from.heading).to_radians() * self.reach();
             libm::hypot(x - from.x, y - from.y) + turned.abs() < way
         }
     }
@@ -204,10 +232,24 @@ impl Machine {
     /// Looks how far the robot may go until a thing may be near.
     pub(super) fn look_for_room(&mut self) {
         self.room = Room { from: self.body.pose, way: f64::INFINITY };
+        let frame = self.body.pose.frame();
+        let jaws = self.robot.grippers.iter().map(|gripper| {
+            let at = outside(&frame, gripper.at.into());
+            (Hull::Circle { radius: crowd::THING_NEAR }, Pose::new(at.x, at.y, 0.0))
+        });
+        let hulls: Vec<_> = jaws.chain([(self.robot.hull, self.body.pose)]).collect();
         for thing in &*self.things {
-            let gap = thing.obstacle().gap(self.robot.hull, &self.body.pose);
+            let obstacle = thing.obstacle();
+            let gaps = hulls.iter().map(|(hull, pose)| obstacle.gap(*hull, pose));
+            let gap = gaps.fold(f64::INFINITY, f64::min);
             let way = if thing.is_moving() { 0.0 } else { gap - crowd::THING_NEAR };
             self.room.way = self.room.way.min(way);
         }
+    }
+
+    /// The largest distance of a point of hull and grippers from the middle of the axle, in cm.
+    fn reach(&self) -> f64 {
+        let jaws = self.robot.grippers.iter().map(|gripper| length(gripper.at.into()));
+        jaws.fold(self.robot.hull.reach(), f64::max)
     }
 }

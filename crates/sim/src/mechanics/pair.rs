@@ -14,10 +14,12 @@ use crate::mechanics::warm::Key;
 use crate::world::Hull;
 use crate::world::obstacle::{Contact, Obstacle};
 use crate::world::scene::Scene;
-use ev3_motion::{Pose, Vec2};
+use ev3_motion::{Pose, Vec2, length, outside};
 
 /// How often robots that are too near are pushed from each other.
 const PUSHES: usize = 8;
+/// The share of what a held thing is off that a step makes good.
+const SETTLES: f64 = 0.2;
 /// Wheels that spin slower than this over the floor roll, in cm/s.
 const ROLLS: f64 = 1e-3;
 /// Contacts of things nearer than this take part, in cm: farther than both move in a step.
@@ -98,8 +100,55 @@ struct Both {
     softness: f64,
 }
 
-/// A tick of robots and things that are near each other.
-pub(crate) fn advance(riders: &mut [Rider]) {
+/// A thing that a gripper holds: a point of one body stays at a point of another one, and so does
+/// its heading, as far as the gripper is strong.
+pub(crate) struct Joint<'a> {
+    /// The robot and the thing.
+    pub(crate) bodies: [usize; 2],
+    /// The point in the frames of both, in cm.
+    pub(crate) at: [Vec2; 2],
+    /// How far the thing is turned from the robot, in degrees.
+    pub(crate) turned: f64,
+    /// The most force in N, and the most torque in N m.
+    pub(crate) force: f64,
+    pub(crate) torque: f64,
+    /// The impulses of the last step, per second: along x and y, turning.
+    pub(crate) impulses: &'a mut [f64; 3],
+}
+
+impl Joint<'_> {
+    fn limits(&self, riders: &[Rider], steps: &[Step], seconds: f64) -> [(Limit, Both); 3] {
+        let bodies = self.bodies.map(|index| &*riders[index].body);
+        let steps = self.bodies.map(|index| &steps[index]);
+        let points = [0, 1].map(|i| outside(&bodies[i].pose.frame(), self.at[i]));
+        let off = points[1] - points[0];
+        let limit = |gains: [Speeds; 2], most: f64, off: f64| {
+            let mut limit = Limit::friction(gains[0], most * seconds);
+            limit.target = off * SETTLES / seconds;
+            (limit, Both::new(gains, steps))
+        };
+        let along = |axis: Vec2| {
+            let gains = [bodies[0].gain(points[0], axis), bodies[1].gain(points[1], -axis)];
+            limit(gains, self.force / 100.0, off.dot(&axis))
+        };
+        let turn = [0.0, 0.0, 0.0, 0.0, 1.0];
+        let turned = bodies[1].pose.heading - bodies[0].pose.heading - self.turned;
+        [
+            along(Vec2::new(1.0, 0.0)),
+            along(Vec2::new(0.0, 1.0)),
+            limit([turn, turn.map(|one: f64| -one)], self.torque, turned.to_radians()),
+        ]
+    }
+
+    /// How far the two points are from each other, in cm.
+    fn off(&self, riders: &[Rider]) -> f64 {
+        let points = [0, 1].map(|i| outside(&riders[self.bodies[i]].body.pose.frame(), self.at[i]));
+        length(points[1] - points[0])
+    }
+}
+
+/// A tick of robots and things that are near each other. `joints` answer how far off they are.
+pub(crate) fn advance(riders: &mut [Rider], joints: &mut [Joint]) -> Vec<f64> {
     let mut parts: f64 = 1.0;
     for rider in &mut *riders {
         let (ahead, turn) = rider.body.twist(rider.omega);
@@ -108,28 +157,37 @@ pub(crate) fn advance(riders: &mut [Rider]) {
     }
     let mut part = 0.0;
     while part < parts {
-        advance_part(riders, TICK_SECONDS / parts);
+        advance_part(riders, joints, TICK_SECONDS / parts);
         part += 1.0;
     }
-    for rider in riders {
+    for rider in &mut *riders {
         if !rider.is_thing() && rider.body.bumps.is_empty() && rider.body.rolls(rider.omega) {
             rider.body.spins = None;
         }
     }
+    joints.iter().map(|joint| joint.off(riders)).collect()
 }
 
-fn advance_part(riders: &mut [Rider], seconds: f64) {
+fn advance_part(riders: &mut [Rider], joints: &mut [Joint], seconds: f64) {
     let mut steps: Vec<Step> = Vec::with_capacity(riders.len());
     for rider in &mut *riders {
         let Rider { body, omega, loads, hull, scene, .. } = rider;
         steps.push(body.begin(seconds, *omega, loads, *hull, scene));
     }
     let mut pairs = pairs(riders, &steps, seconds);
+    let mut holds: Vec<_> =
+        joints.iter().map(|joint| joint.limits(riders, &steps, seconds)).collect();
     let is_warm = riders.iter().any(Rider::is_thing);
     if is_warm {
         for pair in &mut pairs {
             if let Some(impulses) = riders[pair.bodies[0]].body.warm.at(pair.key, seconds) {
                 pair.begin_with(impulses, &mut steps);
+            }
+        }
+        for (joint, hold) in joints.iter().zip(&mut holds) {
+            for ((limit, both), impulse) in hold.iter_mut().zip(*joint.impulses) {
+                limit.impulse = (impulse * seconds).clamp(-limit.whole, limit.whole);
+                both.give(limit.impulse, joint.bodies, &mut steps);
             }
         }
         for (rider, step) in riders.iter().zip(&mut steps) {
@@ -139,6 +197,11 @@ fn advance_part(riders: &mut [Rider], seconds: f64) {
     for round in 1..=ROUNDS {
         let rounds = steps.iter_mut().map(|step| step.limits.round(&mut step.speeds, &step.answer));
         let mut change = rounds.fold(0.0, f64::max);
+        for (joint, hold) in joints.iter().zip(&mut holds) {
+            for (limit, both) in hold {
+                change = change.max(both.apply(limit, joint.bodies, &mut steps));
+            }
+        }
         for pair in &mut pairs {
             change = change.max(pair.round(&mut steps));
         }
@@ -152,6 +215,9 @@ fn advance_part(riders: &mut [Rider], seconds: f64) {
     }
     for pair in pairs.iter().filter(|_| is_warm) {
         riders[pair.bodies[0]].body.warm.note(pair.key, &pair.touch, seconds);
+    }
+    for (joint, hold) in joints.iter_mut().zip(&holds) {
+        *joint.impulses = [0, 1, 2].map(|i| hold[i].0.impulse / seconds);
     }
     report(riders, &pairs);
     let before: Vec<_> = riders.iter().map(|rider| rider.body.pose).collect();

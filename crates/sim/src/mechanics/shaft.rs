@@ -16,6 +16,8 @@ pub(crate) struct Shaft {
     pub(crate) jammed: bool,
     /// The angles that it cannot turn beyond.
     stops: Option<[f64; 2]>,
+    /// What its gripper holds stops it there.
+    pub(crate) blocked: Option<f64>,
     /// The brick's counter for this port.
     pub(crate) encoder: Encoder,
 }
@@ -28,6 +30,7 @@ impl Shaft {
             omega: 0.0,
             jammed: false,
             stops,
+            blocked: None,
             encoder: Encoder::new(teeth),
         }
     }
@@ -76,6 +79,7 @@ impl Shaft {
         let mut next = self.angle + self.omega.to_degrees() * TICK_SECONDS;
         let travel = self.kind.travel.map(|travel| [0.0, f64::from(travel)]);
         if let Some([low, high]) = travel.or(self.stops) {
+            let high = self.blocked.map_or(high, |blocked| high.min(blocked));
             if !(low..=high).contains(&next) {
                 next = next.clamp(low, high);
                 self.omega = 0.0;
@@ -87,6 +91,11 @@ impl Shaft {
             self.encoder.rest(tick_start_us);
         }
         self.angle = next;
+    }
+
+    /// How far it is from its lower stop to its upper one: 0 to 1. `None` if it has no stops.
+    pub(crate) fn share(&self) -> Option<f64> {
+        self.stops.map(|[low, high]| (self.angle - low) / (high - low))
     }
 
     /// Time passes without any motion.

@@ -18,6 +18,7 @@ pub struct Thing {
     item: Item,
     pub(crate) hull: Hull,
     pub(crate) body: Body,
+    floor: Floor,
 }
 
 impl Thing {
@@ -33,7 +34,7 @@ impl Thing {
         let floor = Floor { force, radius: Floor::radius_of(hull) };
         let inertia = if traits.rolls { ROLLING * mass } else { mass };
         let body = Body::thing(pose, inertia, mass * spread / 1e4, floor, traits.bounces());
-        Some(Thing { id, item: item.clone(), hull, body })
+        Some(Thing { id, item: item.clone(), hull, body, floor })
     }
 
     /// The number of its item.
@@ -75,6 +76,12 @@ impl Thing {
     /// Whether it moves.
     pub fn is_moving(&self) -> bool {
         self.body.slip != 0.0 || self.body.spins.into_iter().flatten().any(|speed| speed != 0.0)
+    }
+
+    /// A gripper holds it above the floor, or none does.
+    pub(crate) fn lift(&mut self, is_lifted: bool) {
+        let force = if is_lifted { 0.0 } else { self.floor.force };
+        self.body.floor = Some(Floor { force, ..self.floor });
     }
 
     /// Energy of motion, in joules.

@@ -5,7 +5,7 @@ use std::fmt;
 use crate::brick::port::Port;
 use crate::noise::Echo;
 use crate::world::color::Color;
-use crate::world::{Hull, Traits};
+use crate::world::{Gripper, Hull, Traits};
 
 /// A kind of argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +23,7 @@ pub enum Kind {
     WheelOptions,
     MotorOptions,
     EchoOptions,
+    GripperOptions,
 }
 
 /// An argument that was read.
@@ -59,6 +60,8 @@ pub enum Value {
     MotorOptions(Option<[f64; 2]>),
     /// What an ultrasonic sensor hears.
     EchoOptions(Echo),
+    /// A gripper at no place yet.
+    GripperOptions(Gripper),
 }
 
 impl Value {

@@ -408,6 +408,8 @@ pub enum Part {
     Noise(Port),
     /// What its ultrasonic sensor hears.
     Echo(Port),
+    /// The gripper of the motor at a port.
+    Gripper(Port),
     /// A sensor, by its place in [`RobotSpec::sensors`](crate::RobotSpec::sensors).
     Sensor(usize),
 }

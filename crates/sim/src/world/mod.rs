@@ -3,6 +3,7 @@
 
 pub(crate) mod color;
 pub(crate) mod form;
+mod gripper;
 mod hull;
 mod item;
 mod map;
@@ -11,6 +12,7 @@ pub(crate) mod scene;
 mod spec;
 mod traits;
 
+pub use gripper::Gripper;
 pub use hull::Hull;
 pub(crate) use item::THINGS;
 pub use item::{Item, ItemId, Part, Shape, SpecError};

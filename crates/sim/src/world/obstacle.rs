@@ -192,6 +192,19 @@ impl Obstacle {
         length(self.frame.translation.vector - center) - self.reach - radius
     }
 
+    /// How wide it is along a direction of length 1 through a point; `None` if the point is not in it.
+    pub(crate) fn chord(&self, point: Vec2, direction: Vec2) -> Option<f64> {
+        let point = Point::from(point);
+        if !self.shape().contains_point(&self.frame, &point) {
+            return None;
+        }
+        let ends = [direction, -direction].map(|direction| {
+            let ray = Ray::new(point, direction);
+            self.shape().cast_ray(&self.frame, &ray, 2.0 * self.reach, false)
+        });
+        Some(ends.into_iter().flatten().sum())
+    }
+
     /// How far a hull is from it, in cm; below 0 where they overlap. It may be less than that if it
     /// is far.
     pub(crate) fn gap(&self, hull: Hull, pose: &Pose) -> f64 {

@@ -1,8 +1,11 @@
 //! Things that robots push: friction on the floor, pushes, heaps, balls.
-use crate::desk::{B, C, Desk};
+use crate::desk::{A, B, C, Desk};
 use crate::robots::{default_robot, touch_robot};
 use ev3_sim::facts::Subject;
-use ev3_sim::{Bounds, Item, ItemId, Machine, Options, Pose, Thing, Traits, WorldSpec};
+use ev3_sim::{
+    Bounds, Gripper, Item, ItemId, Machine, Options, Port, Pose, RobotSpec, Thing, Traits,
+    WorldSpec,
+};
 use std::fmt::Write;
 
 const GRAVITY: f64 = 980.665;
@@ -335,4 +338,103 @@ fn a_saved_world_has_things_where_they_are() {
     assert!(desk.0.world_facts().contains(&fact), "{}", desk.0.world_facts());
     let at = format!("translate({x:.2},50.00)");
     assert!(desk.0.svg().contains(&at), "{at}");
+}
+
+const JAWS: [f64; 2] = [0.0, 12.0];
+
+/// The default robot with a gripper at outA.
+fn with_gripper(gripper: Gripper) -> RobotSpec {
+    let mut robot = default_robot();
+    robot.motors[0].stops = Some([0.0, 90.0]);
+    robot.grippers = vec![Gripper { at: JAWS, ..gripper }];
+    robot
+}
+
+/// A robot that has closed its gripper on a thing of 0.1 kg.
+fn carrying(gripper: Gripper) -> Desk {
+    let world =
+        WorldSpec { items: vec![square([0.0, 12.0], 6.0, mass(0.1))], ..WorldSpec::default() };
+    let mut desk = Desk::with(&world, &with_gripper(gripper));
+    desk.run(A, &[("duty_cycle_sp", 40)], "run-direct");
+    desk.step(1000);
+    assert!(desk.0.held().eq([desk.thing().id()]));
+    desk
+}
+
+/// How far the thing is from where the gripper took it: in cm and in degrees.
+fn off(desk: &Desk) -> (f64, f64) {
+    let (robot, thing) = (desk.0.pose(), desk.thing().pose());
+    let (sin, cos) = robot.heading.to_radians().sin_cos();
+    let [x, y] = [robot.x + 12.0 * sin, robot.y + 12.0 * cos];
+    ((thing.x - x).hypot(thing.y - y), (thing.heading - robot.heading).abs())
+}
+
+#[test]
+fn what_a_gripper_holds_comes_along() {
+    for lifts in [false, true] {
+        let mut desk = carrying(Gripper { lifts, ..Gripper::default() });
+        let closed = desk.position(A);
+        assert!((20..30).contains(&closed), "{closed}: it stalls at a thing of 6 cm");
+        assert_eq!(desk.state(A), "running stalled");
+        let mut worst: (f64, f64) = (0.0, 0.0);
+        for (left, right) in [(400, 400), (300, -300), (-400, -400), (1000, 1000), (0, 600)] {
+            desk.drive(left, right);
+            for _ in 0..100 {
+                desk.step(10);
+                let (far, turned) = off(&desk);
+                worst = (worst.0.max(far), worst.1.max(turned));
+            }
+        }
+        assert!(worst.0 < 0.01 && worst.1 < 0.1, "{lifts}: {worst:?}");
+        assert!(desk.0.pose().y.hypot(desk.0.pose().x) > 10.0);
+        desk.run(A, &[("duty_cycle_sp", -40)], "run-direct");
+        desk.step(1000);
+        assert_eq!(desk.0.held().count(), 0);
+        desk.hold();
+        desk.step(1000);
+        assert!(!desk.thing().is_moving(), "it lies on the floor");
+        assert_eq!(halts(&desk.0), 0);
+    }
+}
+
+#[test]
+fn a_weak_gripper_loses_what_it_holds() {
+    let mut desk = carrying(Gripper { force: 0.05, ..Gripper::default() });
+    desk.drive(-600, -600);
+    desk.step(1500);
+    assert_eq!(desk.0.held().count(), 0);
+    assert!(!desk.thing().is_moving());
+    assert!(off(&desk).0 > 10.0);
+}
+
+#[test]
+fn a_gripper_closes_on_nothing_beside_it() {
+    let world =
+        WorldSpec { items: vec![square([9.0, 12.0], 6.0, mass(0.1))], ..WorldSpec::default() };
+    let mut desk = Desk::with(&world, &with_gripper(Gripper::default()));
+    desk.run(A, &[("duty_cycle_sp", 40)], "run-direct");
+    desk.step(1000);
+    assert_eq!((desk.0.held().count(), desk.position(A)), (0, 90));
+}
+
+#[test]
+fn a_robot_that_is_lifted_loses_what_it_holds() {
+    let mut desk = carrying(Gripper::default());
+    desk.0.place(Pose::new(50.0, 50.0, 0.0)).unwrap();
+    desk.drive(100, 100);
+    desk.step(500);
+    assert_eq!(desk.0.held().count(), 0);
+    assert!(desk.thing().pose().y < 13.0);
+}
+
+#[test]
+fn impossible_grippers_are_refused() {
+    let fault = |robot: RobotSpec| robot.validate().unwrap_err().to_string();
+    assert!(fault(with_gripper(Gripper { force: -1.0, ..Gripper::default() })).contains("force"));
+    assert!(
+        fault(with_gripper(Gripper { port: Port::OutB, ..Gripper::default() })).contains("stops")
+    );
+    let mut twice = with_gripper(Gripper::default());
+    twice.grippers.push(twice.grippers[0]);
+    assert!(fault(twice).contains("of its own"));
 }

@@ -33,6 +33,8 @@ range(direction, Number) :-
     abs(Number) =< 100.
 range(duty_limit, Number) :-
     range(speed_ahead, Number).
+range(jaw_angle, Number) :-
+    Number > 0.
 range(seconds, Number) :-
     Number >= 0.
 range(speed, Number) :-
@@ -143,6 +145,13 @@ allowed(localize_start,
         [ unknown, pose('X', 'Y', 'Heading'),
           pose('X', 'Y', 'Heading', 'Sigma') ]).
 allowed(mounting_option,    [stops('Min', 'Max')]).
+allowed(jaws_option,
+        [ closes('Direction'), turn('Degrees'), force('Percent') ]).
+allowed(jaw_angle,          'an angle of jaws must be above 0 degrees').
+allowed(jaw_direction,      [positive, negative]).
+allowed(gripper_option,
+        [ opening('Cm'), force('Newton'), torque('NewtonMeter'),
+          pivot('Boolean'), lifts('Boolean') ]).
 allowed(thing_option,
         [ mass('Kg'), friction('Share'), height('Cm'), rolls('Boolean'),
           bounces('Share'), color('Color'), name('Name') ]).

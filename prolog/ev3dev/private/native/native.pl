@@ -180,6 +180,7 @@
             sim_restore_/1,             % +Snapshot
             sim_collisions_/1,          % -Collisions
             sim_things_/1,              % -Things
+            sim_held_/1,                % -Names
             sim_trace_/1,               % -Trace
             sim_svg_/1,                 % -Text
             sim_mount_/2,               % +Directory, ?DevDirectory
