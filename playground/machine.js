@@ -65,7 +65,8 @@ export class Machine {
       this.name = message.name ?? this.name;
       this.frames += 1;
       if (this.frames <= this.before) message.program = { ...message.program, state: 'running' };
-      this.on.took(message);
+      this.on.took(message.new && this.all && this.frames > 1 ? { ...message, new: false } : message);
+      if (message.new) this.all = false;
       // Goals are typed beside the program.
       delete message.goals;
       this.view?.take(message);
@@ -100,6 +101,8 @@ export class Machine {
   next(have) {
     this.asked = performance.now();
     this.wanted += 1;
+    // The live view that comes later asks for all that was there before.
+    this.all ||= !have;
     this.unheard += 1;
     this.send(have ? `next ${have}` : 'next');
   }

@@ -285,6 +285,15 @@ describe('the playground', () => {
     await idle(page);
   });
 
+  test('shows a line once, also if all is asked for again', async () => {
+    await page.click('#said-clear');
+    await ask(page, 'writeln(once).');
+    await said(page, /^true/);
+    const { frames } = await page.evaluate(() => { window.ev3dev.machine.next(''); return { frames: window.ev3dev.machine.frames }; });
+    await until(() => page.evaluate((n) => window.ev3dev.machine.frames > n + 1, frames), 'more frames');
+    assert.deepEqual((await state(page)).said.filter(([, words]) => /^once/.test(words)).length, 1);
+  });
+
   test('goes on after engines, branches and output that is caught', async () => {
     await page.click('#said-clear');
     await ask(page, 'engine_create(L, (wait(0.2), numlist(1, 30000, L)), E), engine_next(E, [One|_]), writeln(engine(One)).');
