@@ -3,9 +3,9 @@ use super::believed::{ToWorld, believe, believed};
 use super::hand::pulled;
 use super::notes::notes;
 use super::state::{
-    Beam, Brick, Clock, Decimal, Devices, Fine, Hull, Item, Lights, OrNull, Plugs, Port, Robot,
-    Row, Samples, Screen, Sensor, Sight, Spec, Surroundings, Text, Wheel, Words, World, fine,
-    points, text,
+    Beam, Brick, Clock, Decimal, Devices, Fine, Hull, Item, Lights, OrNull, Placed, Plugs, Port,
+    Robot, Row, Samples, Screen, Sensor, Sight, Spec, Surroundings, Text, Wheel, Words, World,
+    fine, points, text,
 };
 use crate::glue::state::watched;
 use crate::sim::robot_name;
@@ -13,6 +13,7 @@ use ev3_json::Json;
 use ev3_os::locked;
 use ev3_sim::{
     Bounds, Button, ItemId, MOTOR_KINDS, Machine, Pose, Sample, SensorKind, Shown, Simulation,
+    Thing,
 };
 use std::sync::Mutex;
 use std::time::Duration;
@@ -46,7 +47,11 @@ pub(super) fn state(simulation: &Simulation) -> (Duration, String) {
     let other = |(id, item)| Item { name: robot_name(id).map(Text::from), ..item_of(id, &item) };
     let others: Vec<_> = machine.other_robots().map(other).collect();
     let others = (!others.is_empty()).then_some(others);
-    Surroundings { robot, see: see.collect(), beams: beams.collect(), others }.members(&mut json);
+    let place = |thing: &Thing| Placed { id: thing.id().0.into(), pose: parts(thing.pose()) };
+    let things: Vec<_> = machine.things().iter().map(place).collect();
+    let things = (!things.is_empty()).then_some(things);
+    let (see, beams) = (see.collect(), beams.collect());
+    Surroundings { robot, see, beams, others, things }.members(&mut json);
     let ports = PORTS.iter().map(|port| shown(&machine, *port)).collect();
     let (lights, tone) = (Lights { left, right }, machine.tone().into());
     let brick = Brick { lights, keys: keys.collect(), volts, amps, tone };

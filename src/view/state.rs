@@ -140,6 +140,13 @@ objects! {
         see: Vec<Sight>,
         beams: Vec<Beam>,
         others: Option<Vec<Item>>,
+        things: Option<Vec<Placed>>,
+    }
+
+    /// A thing that moves.
+    Placed {
+        id: u64,
+        pose: [Fine; 3],
     }
 
     /// The brick and what is plugged in.
@@ -345,6 +352,7 @@ impl Report for Value {
             Value::Channel(channel) => json.integer((*channel).into()),
             Value::Place(place) => fine(*place).report(json),
             Value::Places(places) => points(places).report(json),
+            Value::Traits(traits) => json.text(&traits.saved()),
             other => json.text(&other.to_string()),
         }
     }

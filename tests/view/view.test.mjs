@@ -1426,6 +1426,17 @@ group('a world without bounds', ['sim_start([])', 'set_robot(5.6, 10.6, outB, ou
   });
 });
 
+group('a thing that a robot pushes', ["sim_start([bounds(-60, -30, 60, 120), box(0, 30, 8, 8, 0, [mass(0.05), color('#ff0000'), name(cargo)])])", 'set_robot(5.6, 10.6, outB, outC)'], '', (it) => {
+  test('is drawn where it is, in its color', async () => {
+    const floor = (await colors(it.page, [[0, 70]]))[0];
+    const red = (await colors(it.page, [[0, 30]]))[0];
+    assert.notDeepEqual(red, floor);
+    await it.session.ask('go_cm(30, 53)');
+    await until(async () => (await colors(it.page, [[0, 66]]))[0].join() === red.join(), 'the thing');
+    assert.equal(await it.session.ask('sim_thing(cargo, X, Y, _), abs(X) < 1, Y > 60'), '');
+  });
+});
+
 group('a page on which nothing changes', ROOM, '', (it) => {
   /** Waits until nothing is drawn any more. */
   const settled = async () => {

@@ -2,7 +2,7 @@
 // the samples since the simulation began.
 
 /** What each frame has, or adds to what was there. All other keys are kept between frames. */
-const PASSING = new Set(['type', 'have', 'new', 'calm', 'rate', 'source', 'tree', 'goals', 'clock', 'program', 'robot', 'see', 'beams', 'others', 'ports', 'brick', 'samples', 'values', 'log']);
+const PASSING = new Set(['type', 'have', 'new', 'calm', 'rate', 'source', 'tree', 'goals', 'clock', 'program', 'robot', 'see', 'beams', 'others', 'things', 'ports', 'brick', 'samples', 'values', 'log']);
 
 /** All kept keys have come. */
 export const ALL = { has: () => true };
@@ -39,6 +39,7 @@ export class Model {
     if (frame.source !== 'sim') this.world = this.name = null;
     this.frame = frame;
     this.count += 1;
+    for (const { id, pose: [x, y, h] } of frame.things ?? []) Object.assign(this.world?.items.find((item) => item.id === id) ?? {}, { x, y, h });
     if (frame.samples) this.append(frame.samples);
     for (const [name, time, value] of frame.values ?? []) this.value(name, time, value);
     const { newest } = this;

@@ -104,9 +104,9 @@ export class Picture extends Camera {
     c.lineJoin = c.lineCap = 'round';
   }
 
-  /** A thing that does not stand: it is held, chosen, or has a port. */
+  /** A thing that does not stand: it has a mass, is held, chosen, or has a port. */
   moves(item) {
-    return item.port !== undefined || item.id === this.selected?.id || (this.drag?.kind === 'item' && this.drag.item.id === item.id);
+    return item.traits?.startsWith('[mass') || item.port !== undefined || item.id === this.selected?.id || (this.drag?.kind === 'item' && this.drag.item.id === item.id);
   }
 
   drawFloor(c) {
@@ -153,7 +153,7 @@ export class Picture extends Camera {
       const at = this.drag?.kind === 'item' && this.drag.item.id === item.id ? this.drag.at : item;
       paint?.(c, item, at, this);
       if (!solid) continue;
-      const name = item.name ? 'robot' : this.selected?.id === item.id ? 'selected' : solid;
+      const name = item.name ? 'robot' : this.selected?.id === item.id ? 'selected' : /color\('(#\w+)'\)/.exec(item.traits)?.[1] ?? solid;
       if (!paths.has(name)) paths.set(name, new Path2D());
       paths.get(name).addPath(this.shape(item, at));
     }
@@ -162,7 +162,7 @@ export class Picture extends Camera {
       c.shadowColor = this.dark ? 'rgb(0 0 0 / .45)' : 'rgb(50 44 20 / .22)';
       c.shadowBlur = 7 * this.ratio;
       c.shadowOffsetY = 2.5 * this.ratio;
-      fill(c, name === 'robot' ? '#e8a33d' : this.paint[name === 'wall' ? 'wall' : 'block'], path);
+      fill(c, name === 'robot' ? '#e8a33d' : name[0] === '#' ? this.tone(name) : this.paint[name === 'wall' ? 'wall' : 'block'], path);
       c.restore();
       if (name === 'wall') continue;
       stroke(c, this.paint[name === 'selected' ? 'ink' : 'block-edge'], (name === 'selected' ? 2 : 1) * this.dot, path);

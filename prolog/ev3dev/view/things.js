@@ -114,7 +114,7 @@ export const KINDS = {
       return { ...box, x: cm(x), y: cm(y), w: Math.max(1, Math.round(Math.abs(px - qx))), d: Math.max(1, Math.round(Math.abs(py - qy))) };
     },
     points: middle,
-    fact: (box) => fact('box', box.x, box.y, box.w, box.d, ...(box.h ? [box.h] : [])),
+    fact: (box) => fact('box', box.x, box.y, box.w, box.d, ...(box.h || box.traits ? [box.h] : []), ...(box.traits ? [box.traits] : [])),
   },
   circle: {
     tool: 'Circle',
@@ -128,7 +128,7 @@ export const KINDS = {
     handles: (circle) => [[circle.x + circle.r, circle.y]],
     take: (circle, _, place) => ({ ...circle, r: Math.max(1, Math.round(far([circle.x, circle.y], place))) }),
     points: middle,
-    fact: (circle) => fact('circle', circle.x, circle.y, circle.r),
+    fact: (circle) => fact('circle', circle.x, circle.y, circle.r, ...(circle.traits ? [circle.traits] : [])),
   },
   line: {
     tool: 'Line',

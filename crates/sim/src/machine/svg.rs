@@ -73,17 +73,19 @@ impl Machine {
 
 fn draw_item(svg: &mut Svg, id: u32, item: &Item) {
     let name = &format!(" id=\"item{id}\"");
+    let color = item.traits().and_then(|traits| traits.color);
+    let fill = color.map_or_else(|| "#987".to_owned(), |color| color.to_string());
     match item.shape() {
         Shape::Bar { from, to, thickness } => {
             let style = &format!("stroke=\"#444\" stroke-width=\"{thickness:.2}\"");
             svg.line(name, [from, to], style);
         }
         Shape::Box { pose, width, depth } => {
-            let style = &format!("fill=\"#987\" {}", placed(pose));
+            let style = &format!("fill=\"{fill}\" {}", placed(pose));
             svg.rectangle(name, [-width / 2.0, -depth / 2.0], [width, depth], style);
         }
         Shape::Disc { center, radius } => {
-            svg.circle(name, center, &format!("{radius:.2}"), "fill=\"#987\"");
+            svg.circle(name, center, &format!("{radius:.2}"), &format!("fill=\"{fill}\""));
         }
         Shape::Area { corners, color } => {
             let corners = points(corners);

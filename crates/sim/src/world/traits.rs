@@ -98,7 +98,7 @@ impl Traits {
     }
 
     /// As a list of Prolog that can be read back.
-    pub(crate) fn saved(&self) -> String {
+    pub fn saved(&self) -> String {
         self.written(|name| format!("'{}'", name.replace('\\', "\\\\").replace('\'', "\\'")))
     }
 }

@@ -116,8 +116,8 @@ counted(Outcome, Node, Number, Numbers0, Numbers) :-
 
 %!  outline(+Items, -Rows) is det.
 %
-%   Rows are those of the Items. Of rounds of up to 8 rows that do the same the
-%   first and the last are there, and same(Count, Rows) between them.
+%   Rows are those of the Items. Of rounds of up to 8 rows that do the same
+%   the first and the last are there, and same(Count, Rows) between them.
 
 outline(Items, Rows) :-
     rows(Items, Rows0),
