@@ -5,6 +5,7 @@
             gripping/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/load/compiled, []).
 :- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/errors, [domain_error/2, throw_error/3]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).

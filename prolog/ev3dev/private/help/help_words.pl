@@ -39,7 +39,7 @@ words_for([accelerate, acceleration, ramp, smooth],
 words_for([encoder, tacho, tachometer, rotation, revolution, count],
           [motor_position, motor_reset, motor_run, position]).
 words_for([arm, grab, gripper, claw, lift, hand],
-          [motor_run, motor_run_to, motor_run_until_stalled]).
+          [grip, release, motor_run, motor_run_to, motor_run_until_stalled]).
 words_for([stall, stuck, block, blocked, jam],
           [motor_run_until_stalled, motor_wait, motor_states, sim_jam]).
 words_for([distance, far, near, range, proximity, obstacle, wall, sonar,
