@@ -68,7 +68,7 @@ refused("run nothing_such.pl --world room",
 refused("run square --world moon",
         "there is no world moon; there are: convoy, delivery, ").
 refused("run square --world room --robot tuch",
-        "there is no robot tuch; there are: default, touch").
+        "there is no robot tuch; there are: carrier, default, touch").
 refused("run square --world room --clock fast",
         "--clock needs virtual, realtime, or a factor, not fast").
 refused("run square --world room --goal square(", "--goal needs a goal, not square(").
