@@ -9,6 +9,7 @@
 :- use_module(library(ev3dev/golog)).
 :- use_module(library(ev3dev/pddl)).
 :- use_module(library(ev3dev/grid)).
+:- use_module(library(ev3dev/gripper)).
 :- use_module(library(ev3dev/jog)).
 :- use_module(library(ev3dev/journal)).
 :- use_module(library(ev3dev/reasoning)).
@@ -51,6 +52,7 @@ bad(heading_wrapped(0, _), [a-1, _-1]).
 bad(drive_option(speed, 30), [color-1, _-1, 0-2]).
 bad(drive_wait([], _), [a-1, [wait(true)]-1, [timeout(-1)]-1]).
 bad(jog([]), [[sped(5)]-1, [speed(0)]-1, [speed(fast)]-1]).
+bad(set_gripper(outA, []), [5-1, [closes(up)]-2, [turn(0)]-2, [speed(3)]-2]).
 bad(i2c_read(in1, 0, 8, _), [7-1, _-1, a-2, _-2, 255-2, -1-2, 0-3, 33-3, a-3, _-3]).
 bad(i2c_write(in1, 0, [1]), [7-1, _-1, a-2, _-2, 255-2, []-3, a-3, _-3, [a]-3, [_]-3, [256]-3, [-1]-3]).
 bad(analog_voltage(in1, _), [7-1]).
