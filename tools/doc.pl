@@ -48,7 +48,7 @@ task('Drive a robot with two wheels',
      [robot, drive, odometry, calibrate, jog]).
 task('Let a robot react', [rules, events, plnxt]).
 task('Run motors',
-     [motors, motor_settings, dc_motors, servo_motors]).
+     [motors, motor_settings, dc_motors, servo_motors, gripper]).
 task('Ask sensors',
      [sensors, sensor_wait, infrared, nxt_sensors, sensor_info, colors, raw]).
 task('Use the brick itself',

@@ -160,7 +160,7 @@ test(a_fact_without_arguments, error(domain_error(roadmap_fact, room))) :-
 test(unknown_fact, error(domain_error(roadmap_fact, pond(1, 2)))) :-
     roadmap_path([pond(1, 2)], 0-0, 1-1, _).
 test(too_many_arguments, error(domain_error(roadmap_fact, _))) :-
-    roadmap_path([circle(1, 2, 3, 4)], 0-0, 1-1, _).
+    roadmap_path([beacon(1, 2, 3, 4)], 0-0, 1-1, _).
 test(fact_of_words, error(type_error(number, a))) :-
     roadmap_path([circle(a, 2, 3)], 0-0, 1-1, _).
 test(unbound_fact, error(_)) :-
