@@ -54,8 +54,8 @@ main() {
     check_symbols "$file"
     check_texts "$file"
 
-    limit=3800000
-    [[ $name == armel ]] && limit=2400000
+    limit=3900000
+    [[ $name == armel ]] && limit=2500000
     size=$(stat -c %s "$file")
     [[ $size -le $limit ]] || complain "has $size bytes; $limit is the limit"
 
