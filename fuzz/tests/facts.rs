@@ -1,7 +1,9 @@
 //! Facts of worlds and robots: files that somebody sends, with any numbers in them.
 use bolero::{TypeGenerator, check};
 use ev3_sim::facts::{Fact, Kind, Subject, Value};
-use ev3_sim::{Color, Echo, Hull, Machine, Options, Port, Pose, RobotSpec, Traits, WorldSpec};
+use ev3_sim::{
+    Color, Echo, Gripper, Hull, Machine, Options, Port, Pose, RobotSpec, Traits, WorldSpec,
+};
 use std::time::Duration;
 
 /// A number: most are sizes that make sense.
@@ -89,6 +91,13 @@ impl Any {
             Kind::MotorOptions => {
                 Value::MotorOptions((choice % 2 == 0).then(|| [number(0), number(1)]))
             }
+            Kind::GripperOptions => Value::GripperOptions(Gripper {
+                opening: number(0),
+                force: number(1),
+                torque: number(2),
+                lifts: choice % 2 == 0,
+                ..Gripper::default()
+            }),
             Kind::EchoOptions => Value::EchoOptions(Echo {
                 half_angle: number(0),
                 incidence: number(1),
