@@ -179,6 +179,24 @@ pub(crate) fn remote_buttons<'a, C: QueryableContextType>(
     call.list(term)?.iter().map(button).collect()
 }
 
+/// Calls `set` with the name and the value of each option of a list. It answers whether there is
+/// such an option.
+fn each_option<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    domain: &str,
+    options: &Term<'a>,
+    mut set: impl FnMut(&str, &Term<'a>) -> PrologResult<bool>,
+) -> PrologResult<()> {
+    for option in call.list(options)? {
+        let (name, values) = call.compound(&option)?.unwrap_or_default();
+        let is_known = if let [value] = &*values { set(&name, value)? } else { false };
+        if !is_known {
+            return wrong_because(call, domain, &option, "");
+        }
+    }
+    Ok(())
+}
+
 /// A list of `mass(Kg)`, `friction(Share)`, `height(Cm)`, `rolls(Bool)`, `bounces(Share)`,
 /// `color(Color)` and `name(Name)`.
 fn traits<'a, C: QueryableContextType>(
@@ -186,12 +204,8 @@ fn traits<'a, C: QueryableContextType>(
     options: &Term<'a>,
 ) -> PrologResult<Traits> {
     let mut traits = Traits::default();
-    for option in call.list(options)? {
-        let (name, values) = call.compound(&option)?.unwrap_or_default();
-        let [value] = &*values else {
-            return wrong_because(call, "thing_option", &option, "");
-        };
-        match &*name {
+    each_option(call, "thing_option", options, |name, value| {
+        match name {
             "mass" => traits.mass = Some(call.float(value)?),
             "friction" => traits.friction = Some(call.float(value)?),
             "height" => traits.height = Some(call.float(value)?),
@@ -199,9 +213,10 @@ fn traits<'a, C: QueryableContextType>(
             "rolls" => traits.rolls = boolean(call, value)?,
             "color" => traits.color = Some(named(call, "color", value)?),
             "name" => traits.name = Some(call.text(value)?.into()),
-            _ => return wrong_because(call, "thing_option", &option, ""),
+            _ => return Ok(false),
         }
-    }
+        Ok(true)
+    })?;
     Ok(traits)
 }
 
@@ -225,20 +240,17 @@ fn wheel_options<'a, C: QueryableContextType>(
 /// A list of `half_angle(Degrees)`, `incidence(Degrees)`, `miss(Share)`, `spurious(Share)`.
 fn echo<'a, C: QueryableContextType>(call: &Call<'a, C>, options: &Term<'a>) -> PrologResult<Echo> {
     let mut echo = Echo::default();
-    for option in call.list(options)? {
-        let (name, values) = call.compound(&option)?.unwrap_or_default();
-        let field = match &*name {
+    each_option(call, "echo_option", options, |name, value| {
+        let field = match name {
             "half_angle" => &mut echo.half_angle,
             "incidence" => &mut echo.incidence,
             "miss" => &mut echo.miss,
             "spurious" => &mut echo.spurious,
-            _ => return wrong_because(call, "echo_option", &option, ""),
-        };
-        let [value] = &*values else {
-            return wrong_because(call, "echo_option", &option, "");
+            _ => return Ok(false),
         };
         *field = call.float(value)?;
-    }
+        Ok(true)
+    })?;
     Ok(echo)
 }
 
@@ -249,21 +261,18 @@ fn gripper<'a, C: QueryableContextType>(
     options: &Term<'a>,
 ) -> PrologResult<Gripper> {
     let mut gripper = Gripper::default();
-    for option in call.list(options)? {
-        let (name, values) = call.compound(&option)?.unwrap_or_default();
-        let [value] = &*values else {
-            return wrong_because(call, "gripper_option", &option, "");
-        };
-        match &*name {
+    each_option(call, "gripper_option", options, |name, value| {
+        match name {
             "opening" => gripper.opening = call.float(value)?,
             "force" => gripper.force = call.float(value)?,
             "torque" => gripper.torque = call.float(value)?,
             "pivot" if boolean(call, value)? => gripper.torque = 0.0,
             "pivot" => {}
             "lifts" => gripper.lifts = boolean(call, value)?,
-            _ => return wrong_because(call, "gripper_option", &option, ""),
+            _ => return Ok(false),
         }
-    }
+        Ok(true)
+    })?;
     Ok(gripper)
 }
 
