@@ -169,7 +169,7 @@ def compared(files, papers):
     table = page[page.index("### Page -> server"):page.index("Each but `next`")]
     lines = {word for cell in re.findall(r"^\| ([^|]*) \|", table, flags=re.M)
              for word in re.findall(r"`([a-z]+)", cell)} - {"x"}
-    heard = words(view, files, r"^(?:form|line|goal_line|source_line|request)\((\w+),") | words(
+    heard = words(view, files, r"^(?:form|line|goal_line|source_line|record_line|request)\((\w+),") | words(
         view, files, r"Word == (\w+)") | {word for found in words(view, files, r"memberchk\(Word, \[([\w, ]+)\]")
                                         for word in found.split(", ")}
     heard = {word for word in heard if word[0].islower()}

@@ -16,6 +16,7 @@
 :- use_module(private/explain/queries, [calls/2]).
 :- use_module(private/files/directory, [write_file/2]).
 :- use_module(private/reasoning/outline, [episodes/1]).
+:- use_module(private/reasoning/reasoning_page, []).
 :- use_module(private/reasoning/reasoning_words, [reasoning_lines/1]).
 :- use_module(private/reasoning/recorder, [record/2, recorded_goal/1]).
 :- use_module(private/reasoning/why_false, [why_false/2]).

@@ -975,6 +975,83 @@ const LOOPS = {
   'that waits for a message': 'go(20), thread_get_message(never)',
 };
 
+group('what Prolog thinks', ['use_module(library(ev3dev/reasoning))', "consult('tests/support/reasoning/lecture.pl')", 'sim_start(room, [clock(virtual)])'], '', (it) => {
+  const thinks = (test, what) => shows(it.page, (s) => s.reasoning && test(s.reasoning, s), what);
+  const row = (words) => it.page.waitForSelector(`::-p-xpath(//*[@role="treeitem"][contains(., "${words}")])`);
+  const at = ({ robot, past }) => (past?.robot ?? robot).true;
+
+  test('says how to record when nothing is recorded', async () => {
+    await it.page.click('#reasoning-open');
+    await it.page.waitForSelector('#reasoning:not([hidden]) .empty:not([hidden])');
+    assert.match(await it.page.$eval('#reasoning .empty', (words) => words.textContent), /Nothing is recorded\. Type \?- reasoning\(start\)/);
+  });
+
+  test('is an outline with a branch for each attempt, and why each was given up', async () => {
+    await it.session.ask('reasoning(start)');
+    const { crosses } = (await thinks((r, s) => r.rows === 27 && s.program.state === 'idle', 'all rows')).reasoning;
+    const labels = await it.page.$$eval('.outline [role=treeitem]', (all) => all.map((each) => [...each.children].slice(4).map((part) => part.textContent).join(' ').trim()));
+    for (const words of ['1. way(left) line 3, clause 1 of 3 given up: 38.1 > 60', '2. way(ahead) line 4, clause 2 of 3 given up: 97.0 > 100', '3. way(right) line 5, clause 3 of 3 given up: 46.6 > 100']) {
+      assert.ok(labels.includes(words), `${words} in ${labels.join('\n')}`);
+    }
+    assert.ok(labels.includes('turn(30,-90) moved 0.9 s, stays done'));
+    assert.equal(await it.page.$eval('#reasoning .hint', (words) => words.textContent), 'start · false after 6.46 s · 27 rows, 5 moves');
+    assert.deepEqual(crosses.map(([name, x, y]) => [name, Math.round(x), Math.round(y)]), [['1', 40, 40], ['2', 53, 55], ['3', 68, 43]]);
+    assert.match(await it.page.$eval('.why-false', (why) => why.textContent), /^Why false\? way\(right\) went furthest: there 46\.6 > 100 is false/);
+    assert.deepEqual(await violations(it.page), []);
+  });
+
+  test('puts the robot where it was at the row that is clicked', async () => {
+    await (await row('38.1 > 60is false')).click();
+    const shown = await thinks((r) => r.words === '38.1 > 60', 'the row');
+    assert.ok(near(shown.past.t, 0.94, 0.01));
+    assert.deepEqual(at(shown).map(Math.round), [40, 40, -50]);
+    assert.deepEqual(await it.page.$$eval('.outline [role=treeitem]', (all) => all.map((each) => each.classList.contains('later')).lastIndexOf(false)), shown.reasoning.at);
+    assert.match(await it.page.$eval('.detail', (words) => words.textContent), /^0\.94 s 38\.1 > 60 is false/);
+  });
+
+  test('goes to the row of the slider, and to the time of the row', async () => {
+    await it.page.$eval('#time-slider', (slider) => {
+      slider.value = 2.5;
+      slider.dispatchEvent(new Event('input'));
+    });
+    assert.equal((await thinks((r, s) => near(s.past?.t ?? 0, 2.5, 0.01), 'the time')).reasoning.words, 'go_cm(30,20)');
+    await it.page.focus('.outline');
+    await it.page.keyboard.press('ArrowDown');
+    const down = await thinks((r) => r.words === 'us_dist_cm(in1,97.0)', 'the next row');
+    assert.ok(near(down.past.t, 3.7, 0.01) && near(at(down)[0], 52.8, 0.1));
+    await it.page.click('#time-live');
+    assert.equal((await thinks((r, s) => !s.past, 'now')).reasoning.at, null);
+  });
+
+  test('steps by rows, by branches and by moves', async () => {
+    const step = async (by, forward) => {
+      await it.page.evaluate((name) => [...document.querySelectorAll('#reasoning .segments button')].find((button) => button.textContent === name).click(), by);
+      await it.page.click(`#reasoning [aria-label="One step ${forward ? 'forward' : 'back'}"]`);
+      return (await state(it.page)).reasoning.words;
+    };
+    assert.equal(await step('Row', true), 'start');
+    assert.equal(await step('Branch', true), '1. way(left)');
+    assert.equal(await step('Branch', true), '2. way(ahead)');
+    assert.equal(await step('Move', true), 'turn(30,90)');
+    assert.equal(await step('Move', true), 'go_cm(30,20)');
+    assert.equal(await step('Row', false), '115.8 > 60');
+  });
+
+  test('is a tree for the keyboard', async () => {
+    await it.page.focus('.outline');
+    await it.page.keyboard.press('Home');
+    await it.page.keyboard.press('ArrowLeft');
+    await until(() => it.page.$$eval('.outline [role=treeitem]', (all) => all.length === 1), 'one row');
+    await it.page.keyboard.press('ArrowRight');
+    await it.page.keyboard.press('ArrowRight');
+    assert.equal((await state(it.page)).reasoning.words, 'set_robot(5.6,10.6,outB,outC)');
+    await it.page.keyboard.press('ArrowLeft');
+    assert.equal((await state(it.page)).reasoning.words, 'start');
+    assert.equal(await it.page.$eval('.outline', (tree) => document.getElementById(tree.getAttribute('aria-activedescendant')).ariaSelected), 'true');
+    assert.deepEqual(await violations(it.page), []);
+  });
+});
+
 group('STOP', ROOM, '', (it) => {
   for (const [name, goal] of Object.entries(LOOPS)) {
     test(`ends a program ${name}`, async () => {
@@ -1692,14 +1769,17 @@ group('for everybody', [...ROOM, 'use_module(library(ev3dev/journal))', 'because
     await free(page)();
   });
 
-  test('the page weighs less than 233 kB and asks nobody else', async () => {
+  test('the page weighs less than 238 kB, 18 kB more with its reasoning, and asks nobody else', async () => {
     const page = await open(browser, it.url);
     const origin = new URL(it.url).origin;
     assert.deepEqual(page.requests.filter((url) => !url.startsWith(origin) && !url.startsWith(origin.replace('http', 'ws'))), []);
     assert.ok(!page.url().includes('?'), 'the token left the address');
+    assert.ok(!page.requests.some((url) => url.endsWith('reasoning.js')), 'it comes when it is opened');
     const folder = path.join(home, 'prolog/ev3dev/view');
-    const size = fs.readdirSync(folder).reduce((sum, file) => sum + fs.statSync(path.join(folder, file)).size, 0);
-    assert.ok(size < 233000, `${size} bytes`);
+    const size = (file) => fs.statSync(path.join(folder, file)).size;
+    const all = fs.readdirSync(folder).reduce((sum, file) => sum + size(file), 0);
+    const opened = size('reasoning.js');
+    assert.ok(all - opened < 238000 && opened < 18000, `${all - opened} and ${opened} bytes`);
     await free(page)();
   });
 });

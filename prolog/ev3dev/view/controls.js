@@ -9,7 +9,7 @@ const ARROWS = { ArrowUp: 'ahead', ArrowDown: 'back', ArrowLeft: 'left', ArrowRi
 /** Keys that do the same as a button. */
 const KEYS = {
   ' ': 'pause', '.': 'step', '+': 'zoom-in', '=': 'zoom-in', '-': 'zoom-out', 0: 'fit', f: 'follow', m: 'measure', b: 'add-box',
-  r: 'reset', e: 'edit', p: 'program-open', d: 'drive', h: 'chart-pause',
+  r: 'reset', e: 'edit', p: 'program-open', t: 'reasoning-open', d: 'drive', h: 'chart-pause',
 };
 const OF_SIMULATION = new Set(['pause', 'step', 'add-box', 'reset']);
 const JOG_SPEED = 30;

@@ -67,6 +67,8 @@ const editor = new Editor(send, world, edited);
 const scenes = [ports, brick, program];
 const panels = [hands, log, charts];
 const arranged = new Panels(layout);
+/** Its code comes when it is opened. */
+let reasoning = null;
 
 // ---------------- the line
 
@@ -89,7 +91,7 @@ function reply(message) {
   if (message.type === 'answer') log.answer(message);
   else if (message.type === 'reads') log.reads(true);
   else if (message.type === 'refused' && ['goal', 'more', 'enough', 'input'].includes(message.what)) log.refused(message.why);
-  else if (!editor.reply(message) && !program.reply(message)) hands.reply(message);
+  else if (!editor.reply(message) && !program.reply(message) && !reasoning?.reply(message)) hands.reply(message);
 }
 
 function frame(next) {
@@ -100,6 +102,7 @@ function frame(next) {
   const came = model.take(next);
   for (const panel of panels) panel.take(model, came);
   timeline.take(model);
+  reasoning?.take(model);
   editor.take(model);
   if (!timeline.past && !editor.open) {
     for (const scene of scenes) scene.take(model, came);
@@ -116,8 +119,15 @@ function frame(next) {
 function show(moment) {
   if (editor.open) return;
   for (const scene of scenes) scene.take(moment, ALL);
-  world.show(moment);
+  world.show(reasoning?.placed(moment) ?? moment);
 }
+
+$('reasoning-open').addEventListener('click', async () => {
+  const { Reasoning } = await import('./reasoning.js');
+  world.thoughts = reasoning ??= new Reasoning(send, () => show(timeline.past ?? model));
+  reasoning.model = model;
+  reasoning.turn(!reasoning.open);
+});
 
 /** The editor was opened or closed. */
 function edited() {
@@ -247,6 +257,7 @@ function shown() {
     recorded: timeline.kept.length,
     seen: timeline.kept[0]?.time ?? null,
     active: model.active ?? [],
+    reasoning: reasoning?.state ?? null,
     edits: editor.open ? { draft: editor.draft, selected: editor.thing(), tool: editor.tool, undo: editor.past.length, redo: editor.future.length, waits: editor.pending.length, folder: editor.folder } : null,
     selected: world.selected === null ? null : world.selected.kind ?? world.selected,
     measured: world.measured?.[1] ? Math.hypot(world.measured[1][0] - world.measured[0][0], world.measured[1][1] - world.measured[0][1]) : null,

@@ -80,6 +80,7 @@ export class Picture extends Camera {
     if (this.shown.sensors) this.drawSeen(c, true);
     if (this.shown.particles && this.model.localized) this.drawLocalized(c, this.model.localized);
     this.drawRobots(c, robot);
+    this.thoughts?.paint(c, this);
     this.drawHands(c);
     this.drawn(robot);
   }
@@ -172,11 +173,11 @@ export class Picture extends Camera {
     }
   }
 
-  label(c, words, x, y, color = this.paint.soft, weight = 500, halo = null) {
+  label(c, words, x, y, color = this.paint.soft, weight = 500, halo = null, size = 11) {
     c.save();
     c.translate(x, y);
     c.scale(this.dot, -this.dot);
-    c.font = `${weight} 11px ${this.font}`;
+    c.font = `${weight} ${size}px ${this.font}`;
     c.textAlign = 'center';
     c.textBaseline = 'middle';
     if (halo) {

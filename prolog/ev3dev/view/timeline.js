@@ -56,7 +56,7 @@ export class Timeline {
   }
 
   get first() {
-    return Math.min(this.kept[0]?.time ?? 0, this.model.samples.time[0] ?? Infinity);
+    return Math.min(this.kept[0]?.time ?? 0, this.model.samples.time[0] ?? Infinity, this.model.recorded ?? Infinity);
   }
 
   // ---------------- going back

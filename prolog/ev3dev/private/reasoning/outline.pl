@@ -117,7 +117,8 @@ counted(Outcome, Node, Number, Numbers0, Numbers) :-
 %!  outline(+Items, -Rows) is det.
 %
 %   Rows are those of the Items. Of rounds of up to 8 rows that do the same
-%   the first and the last are there, and same(Count, Rows) between them.
+%   the first and the last are there, and same(Count, Rows) between them, with
+%   the others below it.
 
 outline(Items, Rows) :-
     rows(Items, Rows0),
@@ -422,11 +423,16 @@ runs([Shape-Row|Shaped2], Rows) :-
         append(Round, Shaped1, Shaped),
         rounds(Shaped1, Round, 0, Count, none, Latest, Rest),
         Count > 2
-    ->  Round = [_-row(from: From)|_],
-        last(Latest, _-row(to: To)),
-        Between is Count-1,
+    ->  Between is Count-1,
+        Length is Between*Period,
+        length(Middle, Length),
+        append(Middle, _, Shaped1),
+        Middle = [_-row(from: From)|_],
+        last(Middle, _-row(to: To)),
+        without_shapes(Middle, [], Below),
         Same = row(what: same(Between, Period), goal: none, state: true,
-                   clause: none, note: none, from: From, to: To, below: []),
+                   clause: none, note: none, from: From, to: To,
+                   below: Below),
         without_shapes(Round, [Same|Rows1], Rows),
         without_shapes(Latest, Rows2, Rows1),
         runs(Rest, Rows2)

@@ -1,5 +1,8 @@
 :- module(ev3dev_reasoning_words,
-          [ reasoning_lines/1           % -Lines
+          [ reasoning_lines/1,          % -Lines
+            row_words/2,                % +Row, -Text
+            mark/3,                     % +What, +State, -Mark
+            remark/3                    % +Row, -Kind, -Text
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(library(lists), [member/2]).
@@ -40,26 +43,18 @@ line(_, Episodes, Line) :-
 
 row_line(Rows, Depth, Line) :-
     member(Row, Rows),
-    Row = row(what: What, goal: Goal, state: State, clause: Clause,
-              note: Note, from: From, below: Below),
+    Row = row(what: What, state: State, from: From, below: Below),
     (   time_words(What, From, Time),
         mark(What, State, Mark),
-        once(what(What, Goal, Clause, Text)),
-        findall(Remark,
-                (   way_remark(What, State, Remark)
-                ;   What \== clause,
-                    clause_words(Clause, Remark)
-                ;   What == goal,
-                    state_remark(State, Below, Remark)
-                ;   note_remark(Note, Remark)
-                ),
-                Remarks),
+        row_words(Row, Text),
+        findall(Remark, remark(Row, _, Remark), Remarks),
         Indent is 2*min(Depth, 20),
         format(string(Begin0), '~w ~*c~w ~w',
                [Time, Indent, 0' , Mark, Text]),
         cut_off(Begin0, Begin),
         laid_out(Begin, Remarks, Line)
-    ;   Depth1 is Depth+1,
+    ;   What \= same(_, _),
+        Depth1 is Depth+1,
         row_line(Below, Depth1, Line)
     ).
 
@@ -69,6 +64,14 @@ time_words(What, Moment, Text) :-
     ->  format(string(Text), '~t~2f~7|', [Time])
     ;   Text = "       "
     ).
+
+%!  mark(+What, +State, -Mark) is det.
+%!  row_words(+Row, -Text) is det.
+%!  remark(+Row, -Kind, -Text) is nondet.
+%
+%   What a row says: a letter for its state, its goal, and remarks. The Kind
+%   of a remark is `place` (of the clause), `fault`, `effect` (of the robot,
+%   which stays), or `plain`.
 
 mark(What, State, Mark) :-
     (   What = ways(_)
@@ -81,6 +84,10 @@ mark(What, State, Mark) :-
     ->  true
     ;   Mark = (-)
     ).
+
+row_words(Row, Text) :-
+    Row = row(what: What, goal: Goal, clause: Clause),
+    once(what(What, Goal, Clause, Text)).
 
 what(way(Number), Goal, _, Text) :-
     goal_words(Goal, Words),
@@ -114,6 +121,19 @@ what(cut, Goals, _, Text) :-
 what(_, Goal, _, Text) :-
     goal_words(Goal, Text).
 
+remark(Row, Kind, Text) :-
+    Row = row(what: What, state: State, clause: Clause, note: Note,
+              below: Below),
+    (   Kind = plain,
+        way_remark(What, State, Text)
+    ;   Kind = place,
+        What \== clause,
+        clause_words(Clause, Text)
+    ;   What == goal,
+        state_remark(State, Below, Kind, Text)
+    ;   note_remark(Note, Kind, Text)
+    ).
+
 way_remark(ways(Count), State, Text) :-
     (   Count =:= 1
     ->  Ways = way,
@@ -126,21 +146,21 @@ way_remark(ways(Count), State, Text) :-
     ;   format(string(Text), '~D ~w', [Count, Ways])
     ).
 
-state_remark(false, [_|_], "fails").
-state_remark(error(Ball), _, Text) :-
+state_remark(false, [_|_], fault, "fails").
+state_remark(error(Ball), _, fault, Text) :-
     goal_words(Ball, Words),
     format(string(Text), 'throws ~w', [Words]).
-state_remark(left, _, "interrupted").
-state_remark(running, _, "runs").
-state_remark(open, Below, "may have more answers") :-
+state_remark(left, _, plain, "interrupted").
+state_remark(running, _, plain, "runs").
+state_remark(open, Below, plain, "may have more answers") :-
     \+ ( member(Row, Below), Row = row(state: open) ).
 
-note_remark(given_up(Goal), Text) :-
+note_remark(given_up(Goal), fault, Text) :-
     goal_words(Goal, Words),
     format(string(Text), 'given up: ~w', [Words]).
-note_remark(moved(Seconds), Text) :-
+note_remark(moved(Seconds), effect, Text) :-
     format(string(Text), 'moved ~1f s, stays done', [Seconds]).
-note_remark(commanded, "stays done").
+note_remark(commanded, effect, "stays done").
 
 cut_off(Line0, Line) :-
     width(Width),

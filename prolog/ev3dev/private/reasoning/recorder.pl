@@ -83,6 +83,7 @@ record(Goal, Bytes) :-
     retractall(lost(_)),
     copy_term_nat(Goal, Copy),
     assertz(recorded_goal(Copy)),
+    flag(ev3dev_reasoning_record, Record, Record+1),
     nb_setval(ev3dev_reasoning_room, Bytes),
     nb_setval(ev3dev_reasoning_next, 1),
     nb_setval(ev3dev_reasoning_oldest, 0),

@@ -11,6 +11,7 @@
                 view_say_/2, view_serve_/5, view_shut_/1, view_visit_/1 ]).
 :- use_module(goals, [goal_line/4, goals_end/1]).
 :- use_module(controls, [hand_line/3]).
+:- use_module(record, [record_line/4]).
 :- use_module(static_state, [brick_show/1, renew_kept/0]).
 :- use_module(log, [error_text/2, log_commands/1, mark/1, note/2]).
 :- use_module(program,
@@ -232,6 +233,8 @@ line(Word, Rest, Page) :-
     (   world_line(Word, Rest, Answer)
     ->  true
     ;   source_line(Word, Rest, Page, Answer)
+    ->  true
+    ;   record_line(Word, Rest, Page, Answer)
     ->  true
     ;   hand_line(Word, Rest, Answer)
     ),

@@ -8,6 +8,7 @@
               [ localize_show_/1, map_show_/1, view_has_robot_/1,
                 view_keep_/2, view_show_/1, view_to_world_/5 ]).
 :- use_module(library(lists), [member/2]).
+:- use_module(record, [keep_record/0]).
 :- use_module('../run/brick', [brick/1, named_brick/3]).
 :- use_module('../simulation/world_name', [world_name/1]).
 
@@ -36,7 +37,8 @@ renew_kept :-
         assertz(renewed(Now)),
         catch(keep_grid, _, true),
         keep_places,
-        keep_name
+        keep_name,
+        keep_record
     ),
     keep_bricks.
 
