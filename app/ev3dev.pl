@@ -136,11 +136,13 @@ call_command(run, [File], Options) :-
     bound_stack,
     load_files(user:Path, []),
     goal_of(File, Options, Goal),
+    recorded(Options, Goal, Called, Text),
     setup_call_cleanup(
         true,
-        outcome(run_goal(Goal, Options), Outcome),
+        outcome(run_goal(Called, Options), Outcome),
         stop_all_motors),
     summary,
+    call(Text),
     report(Outcome, Goal).
 call_command(playground, Folders, Options) :-
     use_module(library(ev3dev/private/app/playground_server), []),
@@ -339,6 +341,17 @@ run_goal(Goal, Options) :-
 run_goal(Goal, _) :-
     call(user:Goal),
     !.
+
+%   With --reasoning Text prints at the end what Prolog did.
+
+recorded(Options, Goal, Called, Text) :-
+    (   setting(reasoning, Options, true)
+    ->  use_module(library(ev3dev/reasoning), []),
+        Called = ev3dev_reasoning:reasoning(user:Goal),
+        Text = ev3dev_reasoning:reasoning_text
+    ;   Called = Goal,
+        Text = true
+    ).
 
 %   An endless recursion ends after seconds; a brick has less room anyway.
 

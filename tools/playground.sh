@@ -20,7 +20,7 @@ node playground/image.mjs "$modules" "$modules/state.prc"
 [ "${1:-}" != --state ] || exit 0
 
 # Those that need no thread, no other robot, no remote control and no file beside them
-examples=(obstacle_avoidance square braitenberg line_following slalom traffic_light
+examples=(obstacle_avoidance square backtracking braitenberg line_following slalom traffic_light
     thermometer grid_navigation grid_lost lost explore_room rules_wander rules_light_seeker
     rules_line_follower rules_sumo rules_traffic_light rules_processes rules_bumper_car
     golog_elevator golog_delivery golog_rescue golog_wumpus golog_classic

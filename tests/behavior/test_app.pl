@@ -64,7 +64,7 @@ refused("devices --noise", "devices has no option --noise").
 refused("jog --loud", "jog has no option --loud").
 % What is not there is named, with what there is
 refused("run nothing_such.pl --world room",
-        "there is no program nothing_such.pl; there are: braitenberg, ").
+        "there is no program nothing_such.pl; there are: backtracking, braitenberg, ").
 refused("run square --world moon",
         "there is no world moon; there are: convoy, delivery, ").
 refused("run square --world room --robot tuch",
@@ -186,6 +186,10 @@ test(a_goal_may_be_given) :-
     app("run examples/braitenberg.pl --world lights --goal vehicle(taste) --for 2",
         0, Output),
     assertion(has(Output, "2.00 s simulated")).
+test(what_prolog_tried_is_printed) :-
+    app("run backtracking --world room --reasoning", 1, Output),
+    said(Output, ["6.46 s simulated", "1. way(left)", "given up: 38.1 > 60",
+                  "Why false? way(right) went furthest", "start failed"]).
 test(a_program_that_fails_ends_with_1) :-
     app("run examples/braitenberg.pl --world lights --goal fail", 1, Output),
     assertion(has(Output, "fail failed")).

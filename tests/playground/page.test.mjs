@@ -220,6 +220,26 @@ describe('the playground', () => {
     await idle(page);
   });
 
+  test('shows what Prolog thinks beside the robot', async () => {
+    await run(page, fs.readFileSync(path.join(home, 'examples/backtracking.pl'), 'utf8'));
+    await said(page, /reasoning\(start\)/);
+    await idle(page);
+    const view = await (await page.$('#robot')).contentFrame();
+    await view.evaluate(() => document.getElementById('reasoning-open').click());
+    const shown = () => view.evaluate(() => window.ev3view.state());
+    await until(async () => (await shown()).reasoning?.rows === 27, 'the rows');
+    const { crosses } = (await shown()).reasoning;
+    assert.deepEqual(crosses.map(([name]) => name), ['1', '2', '3']);
+    await view.evaluate(() => [...document.querySelectorAll('.outline [role=treeitem]')].find((row) => /is false/.test(row.textContent)).click());
+    const { past, reasoning } = await until(async () => { const now = await shown(); return now.past && now; }, 'the past');
+    assert.match(reasoning.words, /^[\d.]+ > 60$/);
+    assert.ok([0, 1, 2].every((i) => Math.abs(past.robot.true[i] - crosses[0][i + 1]) < 0.2), JSON.stringify([past.robot, crosses[0]]));
+    await view.evaluate(() => {
+      document.getElementById('time-live').click();
+      document.getElementById('reasoning-open').click();
+    });
+  });
+
   test('answers what a program reads, and what is typed as at the toplevel', { skip: isFirefox && 'a script of Firefox cannot paste' }, async () => {
     await run(page, `${HEAD}start :- read(Cm), writeln(got(Cm)), read(Next), writeln(next(Next)).\n`);
     await until(() => page.$eval('#query-mark', (mark) => mark.textContent === '|:'), 'a program that reads');

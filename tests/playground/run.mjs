@@ -17,6 +17,7 @@ const { prolog } = await startProlog({
   files: {
     ...pack(),
     ...folder(path.join(home, 'examples'), '/pack/examples'),
+    ...folder(path.join(home, 'tests/support/reasoning'), '/pack/tests/support/reasoning'),
     '/pack/tools/demo.pl': fs.readFileSync(path.join(home, 'tools/demo.pl')),
     '/pack/run.pl': fs.readFileSync(path.join(home, 'tests/playground/run.pl')),
   },

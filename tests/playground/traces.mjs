@@ -10,7 +10,7 @@ import path from 'node:path';
 import { promisify } from 'node:util';
 import { home } from '../../playground/parts.js';
 
-/** Examples with the simulated seconds that they run. Left out are those with threads
+/** Examples with the simulated seconds that they run, and up to which seed random programs are recorded. Left out are those with threads
     (convoy, map_together, sumo_match, far_grid, grid_team), those that call sin, cos, tan or exp
     themselves, which are not the same in every C library, and brick_check, which prints the version
     of Prolog. */
@@ -19,6 +19,7 @@ const EXAMPLES = {
   remote_control: 10, thermometer: 10, traffic_light: 60, lost: 30, grid_lost: 30, explore_room: 30,
   golog_elevator: 40, golog_rescue: 30, golog_wumpus: 30,
   rules_light_seeker: 30, rules_line_follower: 30, rules_sumo: 30, rules_traffic_light: 60, rules_processes: 40, rules_wander: 30,
+  backtracking: 30, random_programs: 260,
 };
 
 const [modules, ...named] = process.argv.slice(2);

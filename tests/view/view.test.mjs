@@ -28,7 +28,7 @@ const free = (page) => async () => {
 const IN_FIREFOX = new RegExp(['is drawn where', 'is seen to move', 'is dragged by', 'shows keys', 'lights and screen', 'loses a wire',
   'boxes are added', 'key Delete', 'is measured', 'is followed', 'by the arrow keys', 'beside it', 'by Escape', 'by steps', 'never ends$', 'alone, pressed',
   'a program names', 'held, read off', 'what the program prints', 'chosen by part', 'as at the toplevel', 'show that they run', 'axe on a screen, light', 'axe on a phone, dark',
-  'takes STOP when', 'draws no picture', 'by its files', 'a foreign Host', 'another token'].join('|'));
+  'takes STOP when', 'a branch for each', 'row that is clicked', 'row of the slider', 'a tree for the keyboard', 'are folded', 'draws no picture', 'by its files', 'a foreign Host', 'another token'].join('|'));
 
 let wanted = [];
 function test(name, act) {
@@ -1049,6 +1049,30 @@ group('what Prolog thinks', ['use_module(library(ev3dev/reasoning))', "consult('
     assert.equal((await state(it.page)).reasoning.words, 'start');
     assert.equal(await it.page.$eval('.outline', (tree) => document.getElementById(tree.getAttribute('aria-activedescendant')).ariaSelected), 'true');
     assert.deepEqual(await violations(it.page), []);
+  });
+
+  test('has room on a phone', async () => {
+    await it.page.setViewport({ width: 390, height: 844 });
+    await until(() => it.page.$$eval('.outline .fault', (all) => all.length && all.every((each) => each.getBoundingClientRect().right <= 390)), 'what failed, within the page');
+    assert.ok(await it.page.evaluate(() => document.documentElement.scrollWidth <= 390));
+    assert.deepEqual(await violations(it.page), []);
+    await it.page.setViewport({ width: 1280, height: 800 });
+  });
+
+  test('rounds that do the same are folded, and open by a click', async () => {
+    await it.session.ask('reasoning(forall(member(X, [1, 2, 3, 4, 5, 6, 7]), (wait(0.1), X > 0)))');
+    const labels = () => it.page.$$eval('.outline code', (all) => all.map((each) => each.textContent));
+    await until(async () => (await labels()).some((words) => /more rounds|more that do the same/.test(words)), 'the fold');
+    const folded = (await labels()).length;
+    await it.page.click('.outline .same .fold-row');
+    await until(async () => (await labels()).length > folded, 'what was folded');
+    assert.ok((await labels()).includes('4 > 0'));
+  });
+
+  test('goes away with its button, and the ports are there again', async () => {
+    await it.page.keyboard.press('t');
+    await it.page.waitForSelector('.ports-card', { visible: true });
+    assert.ok(await it.page.$eval('#reasoning', (card) => card.hidden));
   });
 });
 

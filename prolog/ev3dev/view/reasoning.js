@@ -52,7 +52,8 @@ export class Reasoning {
     });
     this.list.addEventListener('keydown', (event) => this.key(event));
     new ResizeObserver(() => this.soon()).observe(this.list);
-    document.addEventListener('ev3dev-time', ({ detail: { t } }) => this.follow(t));
+    // Before the timeline, which draws the moment.
+    document.addEventListener('ev3dev-time', ({ detail: { t } }) => this.follow(t), true);
   }
 
   clear() {
@@ -263,8 +264,7 @@ export class Reasoning {
     const { scrollTop, clientHeight } = this.list;
     if (top < scrollTop || top + ROW > scrollTop + clientHeight) this.list.scrollTop = top - clientHeight / 3;
     this.describe();
-    this.draw();
-    this.shown();
+    this.soon();
   }
 
   /** The slider, or another part of the page, has gone to a moment. */
@@ -275,8 +275,7 @@ export class Reasoning {
     else {
       this.at = null;
       this.describe();
-      this.draw();
-      this.shown();
+      this.soon();
     }
   }
 
@@ -349,18 +348,25 @@ export class Reasoning {
     };
     const row = this.rows[this.at];
     const begin = Math.max(0, this.crosses.findLastIndex(({ i }) => i <= (this.at ?? Infinity)) - MOST_CROSSES / 2);
-    const crosses = this.crosses.slice(begin, begin + MOST_CROSSES);
-    for (const { i, name, pose: [x, y], read } of crosses) {
+    // Those at one place are one cross.
+    const places = new Map();
+    for (const cross of this.crosses.slice(begin, begin + MOST_CROSSES)) {
+      const key = cross.pose.slice(0, 2).map((n) => Math.round(n / (9 * dot))).join();
+      places.set(key, [...places.get(key) ?? [], cross]);
+    }
+    for (const here of places.values()) {
+      const { i, pose: [x, y] } = here[0];
       c.globalAlpha = this.at !== null && i > this.at ? 0.35 : 1;
       const reach = 7 * dot;
-      if (read) ray(read, paint.red);
+      for (const { read } of here) if (read) ray(read, paint.red);
       c.beginPath();
       for (const side of [-1, 1]) {
         c.moveTo(x - reach, y - side * reach);
         c.lineTo(x + reach, y + side * reach);
       }
       stroke(c, paint.red, 3 * dot);
-      picture.label(c, name, x, y + 17 * dot, paint.red, 700, paint.card, 16);
+      const names = here.map(({ name }) => name);
+      picture.label(c, names.length < 4 ? names.join(', ') : `${names[0]} … ${names.at(-1)}`, x, y + 17 * dot, paint.red, 700, paint.card, 16);
     }
     c.globalAlpha = 1;
     if (row?.read && Math.abs(this.time(row) - this.time(row.read)) < 0.05) ray(row.read, paint.blue);

@@ -45,6 +45,7 @@ option(clock, 'CLOCK', 'virtual, realtime, or a factor', [sim, run, jog],
 option(for, 'S', 'a number', [run],
        'end after S seconds of the robot\'s time').
 option(goal, 'GOAL', 'a goal', [run], 'call it').
+option(reasoning, '', flag, [run], 'print what Prolog tried and what failed').
 option(view, '', flag, [run, jog], 'show the robot in a browser').
 option(port, 'P', 'a whole number below 65536',
        [view, sim, run, jog, playground], 'of the page\'s address').
