@@ -88,13 +88,13 @@ pub(super) fn samples(after: Option<Duration>) -> Option<(Samples, Duration)> {
         Some(_) => ["deg", "deg/s", "%"][index],
         None => "",
     };
-    Some((Samples::of(&rows, &[["bx", "by", "bh"]], &unit), rows.last()?.time))
+    Some((Samples::of(&rows, &[["bx", "by", "bh"].map(Into::into)], &unit), rows.last()?.time))
 }
 
 fn row(sample: &Sample) -> Row<'_> {
     Row {
         time: sample.at,
-        poses: [sample.pose, None],
+        poses: vec![sample.pose],
         values: sample.values.iter().map(Vec::as_slice).collect(),
     }
 }

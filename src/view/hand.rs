@@ -6,7 +6,7 @@ use crate::glue::state::watched;
 use crate::glue::terms::{Prolog, unify_atom};
 use crate::sim::watched_simulation;
 use ev3_os::locked;
-use ev3_sim::{Clock, ItemId, Port, Simulation};
+use ev3_sim::{Clock, ItemId, Port, Simulation, SpecError};
 use std::sync::{Arc, Mutex};
 use swipl::prelude::*;
 
@@ -95,7 +95,10 @@ natives! {
         let moved = simulation()?.change_world(|machine| machine.move_item(item, to, heading));
         match moved {
             Ok(is_there) => into_prolog_result(is_there),
-            Err(error) => wrong_because(&call, "possible_geometry", id, &error.to_string()),
+            Err(SpecError { item, reason, .. }) => {
+                let item = term! {context: #atomable(item.as_str())}?;
+                wrong_because(&call, "possible_geometry", &item, &reason)
+            }
         }
     }
 }

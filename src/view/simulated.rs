@@ -3,9 +3,9 @@ use super::believed::{ToWorld, believe, believed};
 use super::hand::pulled;
 use super::notes::notes;
 use super::state::{
-    Beam, Brick, Clock, Decimal, Devices, Fine, Hull, Item, Lights, OrNull, Placed, Plugs, Port,
-    Robot, Row, Samples, Screen, Sensor, Sight, Spec, Surroundings, Text, Wheel, Words, World,
-    fine, points, text,
+    Beam, Brick, Clock, Decimal, Devices, Fine, Hull, Item, Jaws, Lights, OrNull, Placed, Plugs,
+    Port, Robot, Row, Samples, Screen, Sensor, Sight, Spec, Surroundings, Text, Wheel, Words,
+    World, fine, points, text,
 };
 use crate::glue::state::watched;
 use crate::sim::robot_name;
@@ -47,7 +47,11 @@ pub(super) fn state(simulation: &Simulation) -> (Duration, String) {
     let other = |(id, item)| Item { name: robot_name(id).map(Text::from), ..item_of(id, &item) };
     let others: Vec<_> = machine.other_robots().map(other).collect();
     let others = (!others.is_empty()).then_some(others);
-    let place = |thing: &Thing| Placed { id: thing.id().0.into(), pose: parts(thing.pose()) };
+    let place = |thing: &Thing| Placed {
+        id: thing.id().0.into(),
+        pose: parts(thing.pose()),
+        held: machine.held().any(|held| held == thing.id()).then_some(true),
+    };
     let things: Vec<_> = machine.things().iter().map(place).collect();
     let things = (!things.is_empty()).then_some(things);
     let (see, beams) = (see.collect(), beams.collect());
@@ -92,6 +96,7 @@ fn shown(machine: &Machine, of: ev3_sim::Port) -> Port {
             port.position = Some(Decimal(motor.position));
             port.speed = Some(Decimal(motor.speed));
             port.duty = Some(Decimal(motor.duty.into()));
+            port.opening = motor.opening.map(Decimal);
             port.state = Some(Words(motor.state));
             port.stop = Some(motor.stop_action.into());
             port.held = Some(motor.is_held);
@@ -186,6 +191,10 @@ fn spec(machine: &Machine) -> Spec {
         let [x, y, h] = parts(mount.pose);
         Sensor { port: mount.port.name(), driver: mount.driver.clone().into(), x, y, h }
     };
+    let jaws = |gripper: &ev3_sim::Gripper| {
+        let [x, y] = fine(gripper.at);
+        Jaws { port: gripper.port.name(), x, y }
+    };
     Spec {
         hull: match robot.hull {
             ev3_sim::Hull::Circle { radius } => {
@@ -200,6 +209,7 @@ fn spec(machine: &Machine) -> Spec {
         right: robot.wheels.map(|wheels| wheel(wheels.right)),
         axle: robot.wheels.map(|wheels| Decimal(wheels.axle)),
         sensors: robot.sensors.iter().map(sensor).collect(),
+        grippers: (!robot.grippers.is_empty()).then(|| robot.grippers.iter().map(jaws).collect()),
     }
 }
 
@@ -240,28 +250,44 @@ pub(super) fn samples(
     };
     let machine = simulation.machine();
     let samples = machine.samples(after);
-    let rows: Vec<_> = samples.iter().map(|sample| row(sample, belief(sample.at))).collect();
+    let rows = samples.iter().map(|sample| row(&machine, sample, &[belief(sample.at)]));
+    let rows: Vec<_> = rows.collect();
     let unit = |port: usize, index: usize| match port {
-        ..4 => ["deg", "deg/s", "%"][index],
+        ..4 => ["deg", "deg/s", "%", "cm"][index],
         _ => machine.units(PORTS[port]),
     };
-    let names = [["x", "y", "heading"], ["bx", "by", "bh"]];
+    let names = names(&machine, &[["x", "y", "heading"], ["bx", "by", "bh"]]);
     Some((Samples::of(&rows, &names, &unit), rows.last()?.time))
 }
 
 /// All samples as a table for a spreadsheet; `None` if there are none.
 #[cfg(unix)]
 pub(super) fn csv(machine: &Machine) -> Option<String> {
-    let rows: Vec<_> = machine.samples(None).into_iter().map(|sample| row(sample, None)).collect();
-    let names = [["x", "y", "heading"]];
+    let samples = machine.samples(None);
+    let rows: Vec<_> = samples.iter().map(|sample| row(machine, sample, &[])).collect();
+    let names = names(machine, &[["x", "y", "heading"]]);
     (!rows.is_empty()).then(|| Samples::of(&rows, &names, &|_, _| "").csv())
 }
 
-fn row(sample: &Sample, belief: Option<[f64; 3]>) -> Row<'_> {
-    let Pose { x, y, heading } = sample.pose;
+/// The names of the parts of these poses, and of those of the things.
+fn names(machine: &Machine, of_robot: &[[&'static str; 3]]) -> Vec<[Text; 3]> {
+    let of_robot = of_robot.iter().map(|names| names.map(Text::from));
+    let of_thing = |thing: &Thing| {
+        ["x", "y", "heading"].map(|part| format!("thing{}.{part}", thing.id().0).into())
+    };
+    of_robot.chain(machine.things().iter().map(of_thing)).collect()
+}
+
+fn row<'a>(machine: &Machine, sample: &'a Sample, belief: &[Option<[f64; 3]>]) -> Row<'a> {
+    let numbers = |Pose { x, y, heading }: Pose| [x, y, heading];
+    let thing = |thing: &Thing| {
+        let (_, pose) = sample.things.iter().find(|(id, _)| *id == thing.id())?;
+        Some(numbers(*pose))
+    };
+    let robot = [Some(numbers(sample.pose))].into_iter().chain(belief.iter().copied());
     Row {
         time: sample.at,
-        poses: [Some([x, y, heading]), belief],
+        poses: robot.chain(machine.things().iter().map(thing)).collect(),
         values: PORTS.iter().map(|port| sample.values(*port)).collect(),
     }
 }

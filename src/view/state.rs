@@ -147,6 +147,7 @@ objects! {
     Placed {
         id: u64,
         pose: [Fine; 3],
+        held: Option<bool>,
     }
 
     /// The brick and what is plugged in.
@@ -223,6 +224,7 @@ objects! {
         position: Option<Fine>,
         speed: Option<Fine>,
         duty: Option<Fine>,
+        opening: Option<Fine>,
         state: Option<Words>,
         stop: Option<Text>,
         held: Option<bool>,
@@ -275,6 +277,14 @@ objects! {
         right: Option<Wheel>,
         axle: Option<Fine>,
         sensors: Vec<Sensor>,
+        grippers: Option<Vec<Jaws>>,
+    }
+
+    /// The middle between the jaws that a motor moves.
+    Jaws {
+        port: &'static str,
+        x: Fine,
+        y: Fine,
     }
 
     /// A circle or a rectangle.
@@ -352,7 +362,16 @@ impl Report for Value {
             Value::Channel(channel) => json.integer((*channel).into()),
             Value::Place(place) => fine(*place).report(json),
             Value::Places(places) => points(places).report(json),
-            Value::Traits(traits) => json.text(&traits.saved()),
+            Value::Traits(traits) => json.object(|json| {
+                let number = |number: Option<f64>| number.map(Decimal::<6>);
+                member(json, "mass", &number(traits.mass));
+                member(json, "friction", &number(traits.friction));
+                member(json, "height", &number(traits.height));
+                member(json, "rolls", &traits.rolls.then_some(true));
+                member(json, "bounces", &number(traits.bounces));
+                member(json, "color", &traits.color.map(|color| Text::from(color.to_string())));
+                member(json, "name", &traits.name.clone().map(Text::from));
+            }),
             other => json.text(&other.to_string()),
         }
     }
@@ -393,7 +412,7 @@ pub(super) const PORTS: [&str; 8] = ["outA", "outB", "outC", "outD", "in1", "in2
 /// What there was at a moment: the poses that a table names, and the values of each port.
 pub(super) struct Row<'a> {
     pub(super) time: Duration,
-    pub(super) poses: [Option<[f64; 3]>; 2],
+    pub(super) poses: Vec<Option<[f64; 3]>>,
     pub(super) values: Vec<&'a [f64]>,
 }
 
@@ -402,13 +421,13 @@ impl Samples {
     /// some row.
     pub(super) fn of(
         rows: &[Row],
-        names: &[[&'static str; 3]],
+        names: &[[Text; 3]],
         unit: &dyn Fn(usize, usize) -> &'static str,
     ) -> Self {
         let mut columns = vec![Text::Borrowed("time")];
         let mut units = vec!["s"];
         for names in names {
-            columns.extend(names.map(Text::Borrowed));
+            columns.extend_from_slice(names);
             units.extend(["cm", "cm", "deg"]);
         }
         let mut of_ports = Vec::new();
@@ -417,7 +436,9 @@ impl Samples {
             for index in 0..count.unwrap_or(0) {
                 of_ports.push((port, index));
                 columns.push(match name.strip_prefix("out") {
-                    Some(_) => format!("{name}.{}", ["position", "speed", "duty"][index]).into(),
+                    Some(_) => {
+                        format!("{name}.{}", ["position", "speed", "duty", "opening"][index]).into()
+                    }
                     None => format!("{name}.value{index}").into(),
                 });
                 units.push(unit(port, index));

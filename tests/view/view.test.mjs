@@ -1529,7 +1529,12 @@ group('a world without bounds', ['sim_start([])', 'set_robot(5.6, 10.6, outB, ou
   });
 });
 
-group('a thing that a robot pushes', ["sim_start([bounds(-60, -30, 60, 120), box(0, 30, 8, 8, 0, [mass(0.05), color('#ff0000'), name(cargo)])])", 'set_robot(5.6, 10.6, outB, outC)'], '', (it) => {
+const PUSHED = "sim_start([bounds(-60, -30, 60, 120), box(0, 30, 8, 8, 0, [mass(0.05), color('#ff0000'), name(cargo)]), box(-40, 40, 10, 10)], [robot(carrier), clock(virtual)])";
+
+group('a thing that a robot pushes', [PUSHED, 'use_module(library(ev3dev/gripper))', 'set_robot(5.6, 10.6, outB, outC)', 'set_gripper(outA, [])'], '', (it) => {
+  const cargo = (s) => s.world.items.find(({ traits }) => traits?.name === 'cargo');
+  const stands = (s, x, y, tolerance = 0.1) => near(cargo(s).x, x, tolerance) && near(cargo(s).y, y, tolerance);
+
   test('is drawn where it is, in its color', async () => {
     const floor = (await colors(it.page, [[0, 70]]))[0];
     const red = (await colors(it.page, [[0, 30]]))[0];
@@ -1537,6 +1542,97 @@ group('a thing that a robot pushes', ["sim_start([bounds(-60, -30, 60, 120), box
     await it.session.ask('go_cm(30, 53)');
     await until(async () => (await colors(it.page, [[0, 66]]))[0].join() === red.join(), 'the thing');
     assert.equal(await it.session.ask('sim_thing(cargo, X, Y, _), abs(X) < 1, Y > 60'), '');
+    const { words } = await shows(it.page, (s) => /cargo is at x -?\d, y \d\d\./.test(s.words), 'it in words');
+    assert.doesNotMatch(words, /held/);
+  });
+
+  test('is drawn on the slider where it was', async () => {
+    const { time } = await state(it.page);
+    const way = [];
+    for (const share of [0, 0.7, 0.85, 1]) {
+      await it.page.evaluate((t) => document.dispatchEvent(new CustomEvent('ev3dev-time', { detail: { t } })), share * time - 0.01);
+      const { past } = await shows(it.page, (s) => s.past, 'the past');
+      const { y } = past.items.find(({ traits }) => traits);
+      way.push(y);
+      assert.ok(y - past.robot.true[1] > 11.9, `${y} is ahead of the robot at ${past.robot.true}`);
+    }
+    assert.equal(way[0], 30);
+    assert.ok(way.every((y, i) => i === 0 || y > way[i - 1]), `${way}`);
+    await it.page.evaluate(() => document.dispatchEvent(new CustomEvent('ev3dev-time', { detail: { t: null } })));
+    await shows(it.page, (s) => !s.past && cargo(s).y > 60, 'now');
+  });
+
+  test('is dragged by the mouse, and not into an obstacle', async () => {
+    const { x, y } = cargo(await state(it.page));
+    await drag(it.page, [x, y], [x + 30, y]);
+    await shows(it.page, (s) => stands(s, x + 30, y, 1) && s.selected === 'box', 'its new place, chosen');
+    assert.equal(await it.session.ask('sim_thing(cargo, X, _, _), X > 28'), '');
+    await drag(it.page, [x + 30, y], [-40, 40]);
+    const { notice } = await shows(it.page, (s) => /is inside/.test(s.notice), 'a notice');
+    assert.match(notice, /^Box\(-\d.* is inside box\(-40, 40, 10, 10/i);
+    await shows(it.page, (s) => stands(s, x + 30, y, 1), 'its place of before');
+  });
+
+  test('is chosen, moved and turned by the arrow keys', async () => {
+    await it.page.focus('#world');
+    await it.page.keyboard.press('Escape');
+    await it.page.keyboard.press('Enter');
+    await shows(it.page, (s) => s.selected === 'robot', 'the robot');
+    await it.page.keyboard.press('Enter');
+    const { x, y } = cargo(await shows(it.page, (s) => s.selected === 'box', 'the thing'));
+    await it.page.keyboard.press('ArrowLeft');
+    await shows(it.page, (s) => stands(s, x - 1, y), '1 cm to the left');
+    await it.page.keyboard.down('Shift');
+    await it.page.keyboard.press('ArrowUp');
+    await it.page.keyboard.up('Shift');
+    await shows(it.page, (s) => stands(s, x - 1, y + 10), '10 cm up');
+    await it.page.evaluate(() => [...document.querySelectorAll('#inspector button')].find((b) => b.textContent === '+15°').click());
+    await shows(it.page, (s) => near(cargo(s).h, 15, 1), 'turned');
+  });
+
+  test('is held by jaws, and lies there when a hand takes it', async () => {
+    await it.session.ask(PUSHED.replace('30, 8, 8', '20, 6, 6'));
+    await shows(it.page, (s) => s.selected === null && cargo(s).w === 6, 'another world');
+    assert.ok(await it.page.$eval('#inspector', (box) => box.hidden), 'nothing is chosen there');
+    await it.session.ask('release, go_cm(20, 9), grip, go_cm(20, 10), wait(1)');
+    const held = await shows(it.page, (s) => cargo(s).held && near(s.ports[0].opening, 6, 0.3), 'the gripper closed');
+    assert.match(held.words, /held by the gripper/);
+    const { x, y } = cargo(held);
+    await drag(it.page, [x, y], [x + 30, y]);
+    await shows(it.page, (s) => stands(s, x + 30, y, 1) && !cargo(s).held, 'free');
+    assert.equal(await it.session.ask('\\+ sim_held(_)'), '');
+  });
+
+  test('is drawn in the editor, as a thing that moves', async () => {
+    await it.page.click('#edit');
+    const edits = (test, what) => shows(it.page, (s) => s.edits && s.edits.waits === 0 && test(s.edits), what);
+    const field = (words) => it.page.evaluate((text) => {
+      const input = [...document.querySelectorAll('.field')].find((row) => row.querySelector('label').textContent === text).querySelector('input');
+      input.click();
+    }, words);
+    const { draft: before } = (await edits(() => true, 'the draft')).edits;
+    assert.ok(before.items.some(({ traits, x }) => traits?.name === 'cargo' && x > 25), 'where it is now');
+    await it.page.evaluate(() => [...document.querySelectorAll('.kinds button')].find((b) => b.textContent === 'Circle').dispatchEvent(new MouseEvent('click', { detail: 1 })));
+    await drag(it.page, [-30, 90], [-26, 90]);
+    await edits((e) => e.selected.kind === 'circle', 'a circle');
+    await field('Moves');
+    await edits((e) => e.selected.traits?.mass === 0.05, 'a mass');
+    await field('Rolls');
+    await edits((e) => e.selected.traits.rolls, 'a ball');
+    const facts = await it.page.$eval('#editor textarea', (text) => text.value);
+    assert.match(facts, /circle\(-30, 90, 4, \[mass\(0\.05\), rolls\(true\)\]\)/);
+    assert.match(facts, /box\(\S+ \S+ 6, 6, \S+ \[mass\(0\.05\), color\('#ff0000'\), name\('cargo'\)\]\)/);
+    await field('Moves');
+    await edits((e) => e.selected.traits.mass === undefined && e.selected.traits.rolls === undefined, 'it stands fast');
+    await it.page.keyboard.press('Escape');
+    await it.page.focus('#world');
+    await it.page.keyboard.down('Control');
+    await it.page.keyboard.press('z');
+    await it.page.keyboard.up('Control');
+    await edits((e) => e.selected.traits?.rolls, 'a ball again');
+    await it.page.evaluate(() => [...document.querySelectorAll('#editor button')].find((b) => b.textContent === 'Start').click());
+    const { world } = await shows(it.page, (s) => s.edits === null && s.world.items.length === 3, 'that world');
+    assert.equal(world.items.filter(({ traits }) => traits?.mass === 0.05).length, 2);
   });
 });
 

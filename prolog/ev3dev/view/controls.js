@@ -172,8 +172,9 @@ export class Hands {
       event.preventDefault();
       return;
     }
-    if (target.id === 'world' && ARROWS[event.key]) {
-      this.pan(event.key);
+    if (target.id === 'world' && (ARROWS[event.key] || event.key === 'Enter')) {
+      if (event.key === 'Enter') this.world.selectNext();
+      else this.arrow(event.key, event.shiftKey ? 10 : 1);
       event.preventDefault();
       return;
     }
@@ -214,13 +215,16 @@ export class Hands {
     this.world.select(null);
   }
 
-  pan(key) {
+  /** What is selected goes by so many centimeters, else what is seen of the world. */
+  arrow(key, way) {
     const { world } = this;
+    const [right, up] = [{ ArrowLeft: -1, ArrowRight: 1 }[key] ?? 0, { ArrowUp: 1, ArrowDown: -1 }[key] ?? 0];
+    if (world.shift(right * way, up * way)) return;
     const step = 60 / world.camera.scale;
     world.unfollow(() => {
       world.camera.own = true;
-      world.camera.x += { ArrowLeft: -step, ArrowRight: step }[key] ?? 0;
-      world.camera.y += { ArrowUp: step, ArrowDown: -step }[key] ?? 0;
+      world.camera.x += right * step;
+      world.camera.y += up * step;
     });
   }
 

@@ -59,7 +59,8 @@ export class Editor {
 
   enter(model) {
     this.model = model;
-    if (!this.draft || this.base !== model.world) {
+    // Things may have been pushed since then.
+    if (!this.past.length || this.base !== model.world) {
       this.name.value = plain(model.name) || 'my_world';
       this.begins(draftOf(model.world));
     }
@@ -481,7 +482,7 @@ export class Editor {
     if (key === this.fieldsKey) return;
     this.fieldsKey = key;
     const at = this.fields.contains(document.activeElement) ? [...this.fields.elements].indexOf(document.activeElement) : -1;
-    const rows = KINDS[thing.kind].fields.filter((field) => thing.bounds !== null || !/Left|Bottom|Right|Top/.test(field.words)).map((field, i) => this.row(field, thing, i));
+    const rows = KINDS[thing.kind].fields.filter(({ has }) => has?.(thing) ?? true).map((field, i) => this.row(field, thing, i));
     const remove = { class: 'tool text', title: 'Delete (Delete)', onclick: () => this.remove() };
     if (typeof this.selected === 'number') rows.push(el('button', remove, 'Delete'));
     this.fields.replaceChildren(...rows);
@@ -494,9 +495,10 @@ export class Editor {
     const value = field.get(thing);
     const input = field.kind === 'color'
       ? el('select', { id }, ...[...new Set([...COLORS.keys(), named(value)])].map((name) => el('option', { value: COLORS.get(name) ?? name, selected: named(value) === name }, name)))
+      : field.kind === 'switch' ? el('input', { id, type: 'checkbox', checked: value === true })
       : el('input', { id, type: 'text', inputMode: field.kind === 'places' ? 'text' : 'decimal', autocomplete: 'off', spellcheck: false, value: field.kind === 'places' ? value.map((place) => place.join(' ')).join(', ') : String(value ?? '') });
     input.addEventListener('change', () => {
-      const next = read(field.kind, input.value);
+      const next = field.kind === 'switch' ? input.checked : read(field.kind, input.value);
       this.fieldsKey = '';
       if (next === null) {
         notice(field.kind === 'places' ? 'Places are pairs of numbers: 0 0, 100 50' : `${field.words} is a number.`, { seconds: 6 });

@@ -4,6 +4,9 @@
 /** What each frame has, or adds to what was there. All other keys are kept between frames. */
 const PASSING = new Set(['type', 'have', 'new', 'calm', 'rate', 'source', 'tree', 'goals', 'clock', 'program', 'robot', 'see', 'beams', 'others', 'things', 'ports', 'brick', 'samples', 'values', 'log']);
 
+/** A thing's place, as an item of the world has it. */
+export const at = ({ pose: [x, y, h], held }) => ({ x, y, h, held });
+
 /** All kept keys have come. */
 export const ALL = { has: () => true };
 const MOST_SAMPLES = 24000;
@@ -39,7 +42,7 @@ export class Model {
     if (frame.source !== 'sim') this.world = this.name = null;
     this.frame = frame;
     this.count += 1;
-    for (const { id, pose: [x, y, h] } of frame.things ?? []) Object.assign(this.world?.items.find((item) => item.id === id) ?? {}, { x, y, h });
+    for (const { id, ...place } of frame.things ?? []) Object.assign(this.world?.items.find((item) => item.id === id) ?? {}, at(place));
     if (frame.samples) this.append(frame.samples);
     for (const [name, time, value] of frame.values ?? []) this.value(name, time, value);
     const { newest } = this;

@@ -1,9 +1,9 @@
 // The world on the canvas: floor, things, trails, what sensors see, robots, and what hands do.
 
 import { Camera } from './camera.js';
-import { disc, fill, stroke, trace } from './canvas.js';
+import { along, disc, fill, stroke, trace } from './canvas.js';
 import { $, el, nice, num, upper } from './dom.js';
-import { KINDS, TURN } from './things.js';
+import { KINDS, TURN, isThing } from './things.js';
 
 /** Two dimensions: 95 % of all cases lie within this many standard deviations. */
 const SIGMAS = 2.45;
@@ -22,7 +22,7 @@ export class Picture extends Camera {
     const style = getComputedStyle(document.documentElement);
     const color = (name) => style.getPropertyValue(`--${name}`).trim();
     this.dark = matchMedia('(prefers-color-scheme: dark)').matches;
-    this.paint = Object.fromEntries(['ground', 'outside', 'card', 'ink', 'soft', 'line', 'wall', 'block', 'block-edge',
+    this.paint = Object.fromEntries(['robot', 'ground', 'outside', 'card', 'ink', 'soft', 'line', 'wall', 'block', 'block-edge',
       'beam', 'yellow', 'blue', 'red', 'violet', 'off'].map((name) => [name, color(name)]));
     this.font = style.getPropertyValue('--sans');
   }
@@ -107,7 +107,7 @@ export class Picture extends Camera {
 
   /** A thing that does not stand: it has a mass, is held, chosen, or has a port. */
   moves(item) {
-    return item.traits?.startsWith('[mass') || item.port !== undefined || item.id === this.selected?.id || (this.drag?.kind === 'item' && this.drag.item.id === item.id);
+    return isThing(item) || item.port !== undefined || item.id === this.selected?.id || (this.drag?.kind === 'item' && this.drag.item.id === item.id);
   }
 
   drawFloor(c) {
@@ -151,22 +151,25 @@ export class Picture extends Camera {
     const paths = new Map();
     for (const item of items) {
       const { solid, paint } = KINDS[item.kind];
-      const at = this.drag?.kind === 'item' && this.drag.item.id === item.id ? this.drag.at : item;
+      const [x, y, h] = this.now?.things.get(item.id) ?? [item.x, item.y, item.h];
+      const at = this.drag?.kind === 'item' && this.drag.item.id === item.id ? this.drag.at : { x, y, h };
       paint?.(c, item, at, this);
       if (!solid) continue;
-      const name = item.name ? 'robot' : this.selected?.id === item.id ? 'selected' : /color\('(#\w+)'\)/.exec(item.traits)?.[1] ?? solid;
-      if (!paths.has(name)) paths.set(name, new Path2D());
-      paths.get(name).addPath(this.shape(item, at));
+      const edge = this.selected?.id === item.id || item.held ? 'ink' : 'block-edge';
+      const key = `${item.name ? 'robot' : item.traits?.color ?? solid} ${edge}`;
+      if (!paths.has(key)) paths.set(key, new Path2D());
+      paths.get(key).addPath(this.shape(item, at));
     }
-    for (const [name, path] of paths) {
+    for (const [key, path] of paths) {
+      const [name, edge] = key.split(' ');
       c.save();
       c.shadowColor = this.dark ? 'rgb(0 0 0 / .45)' : 'rgb(50 44 20 / .22)';
       c.shadowBlur = 7 * this.ratio;
       c.shadowOffsetY = 2.5 * this.ratio;
-      fill(c, name === 'robot' ? '#e8a33d' : name[0] === '#' ? this.tone(name) : this.paint[name === 'wall' ? 'wall' : 'block'], path);
+      fill(c, name[0] === '#' ? this.tone(name) : this.paint[name], path);
       c.restore();
       if (name === 'wall') continue;
-      stroke(c, this.paint[name === 'selected' ? 'ink' : 'block-edge'], (name === 'selected' ? 2 : 1) * this.dot, path);
+      stroke(c, this.paint[edge], (edge === 'ink' ? 2 : 1) * this.dot, path);
     }
     for (const item of items) {
       if (item.name) this.label(c, item.name, item.x, item.y + (item.r ?? Math.hypot(item.w, item.d) / 2) + 9 * this.dot, this.paint.ink, 600, this.paint.card);
@@ -460,6 +463,15 @@ export class Picture extends Camera {
       if (spot) {
         stroke(c, ink, Math.min(0.5, 1.4 * line));
       }
+    }
+    for (const { port, x, y } of spec?.grippers ?? []) {
+      const half = this.model.port(port)?.opening / 2;
+      if (!(half >= 0)) continue;
+      // Two arms from the hull, whose ends are as far apart as the jaws.
+      const root = Math.max(0, y - 7);
+      c.beginPath();
+      for (const side of [-1, 1]) along(c, [[x + 2.5 * side, root], [x + side * (half + 0.5), y - 2.5], [x + side * (half + 0.5), y + 2.5]]);
+      stroke(c, ink, 1);
     }
     this.nose(c, reach, Math.max(1.6 * line, 0.13 * reach), kind === 'real' ? this.paint.card : ink);
     c.restore();

@@ -28,13 +28,34 @@ const into = ({ x, y, h = 0 }, [px, py]) => {
 // Fields: [words, name or how to get and set it, unit, whether it is a number, a color or places].
 const number = (words, name, unit = 'cm') => ({ words, unit, kind: 'number', get: (thing) => thing[name], set: (thing, value) => ({ ...thing, [name]: value }) });
 const part = (words, name, i) => ({
-  words, unit: 'cm', kind: 'number', get: (thing) => thing[name][i],
+  words, unit: 'cm', kind: 'number', has: (thing) => thing[name] !== null, get: (thing) => thing[name][i],
   set: (thing, value) => ({ ...thing, [name]: thing[name].map((old, k) => (k === i ? value : old)) }),
 });
 const color = { words: 'Color', kind: 'color', get: (thing) => thing.color, set: (thing, value) => ({ ...thing, color: value }) };
 const places = { words: 'Places', kind: 'places', get: (thing) => thing.points, set: (thing, value) => ({ ...thing, points: value }) };
 const AT = [number('x', 'x'), number('y', 'y')];
 const HEADING = number('Heading', 'h', '°');
+
+// What has a mass is a thing that robots push; without it, it neither slides nor rolls.
+const trait = (words, name, unit, kind) => ({
+  words, unit, kind, has: isThing, get: (thing) => thing.traits[name],
+  set: (thing, value) => ({ ...thing, traits: { ...thing.traits, [name]: value } }),
+});
+export const isThing = ({ traits }) => traits?.mass !== undefined;
+const MOVES = {
+  words: 'Moves', kind: 'switch', get: isThing,
+  set: (thing, on) => ({ ...thing, traits: { ...thing.traits, ...(on ? { mass: 0.05 } : { mass: undefined, friction: undefined, rolls: undefined, bounces: undefined }) } }),
+};
+const MASS = trait('Mass', 'mass', 'kg', 'number');
+const ROLLS = trait('Rolls', 'rolls', '', 'switch');
+const weight = (thing) => (isThing(thing) ? ` of ${thing.traits.mass} kg` : '');
+
+/** The traits as an argument of the fact, if there are any. */
+const options = ({ traits = {} }) => {
+  const value = (it) => (typeof it === 'string' ? `'${it.replace(/[\\']/g, '\\$&')}'` : it);
+  const all = Object.keys(traits).filter((name) => (traits[name] ?? false) !== false).map((name) => `${name}(${value(traits[name])})`);
+  return all.length ? [`[${all.join(', ')}]`] : [];
+};
 
 const moved = (thing, [dx, dy]) => ({ ...thing, x: cm(thing.x + dx), y: cm(thing.y + dy) });
 const turned = (thing, by) => ({ ...thing, h: Math.round((thing.h ?? 0) + by) % 360 });
@@ -94,12 +115,12 @@ export const KINDS = {
     path: (path, { w, d, h = 0 }, at) => {
       const turned = new Path2D();
       turned.rect(-w / 2, -d / 2, w, d);
-      path.addPath(turned, new DOMMatrix().translateSelf(at.x, at.y).rotateSelf(-h));
+      path.addPath(turned, new DOMMatrix().translateSelf(at.x, at.y).rotateSelf(-(at.h ?? h)));
     },
     outline: corners,
     closed: true,
-    words: (box) => `Box ${box.w} × ${box.d} at ${box.x}, ${box.y}`,
-    fields: [...AT, number('Width', 'w'), number('Depth', 'd'), HEADING],
+    words: (box) => `Box ${box.w} × ${box.d}${weight(box)} at ${box.x}, ${box.y}`,
+    fields: [...AT, number('Width', 'w'), number('Depth', 'd'), HEADING, MOVES, MASS],
     between: (a, b) => ({ kind: 'box', x: cm((a[0] + b[0]) / 2), y: cm((a[1] + b[1]) / 2), w: cm(Math.abs(a[0] - b[0])), d: cm(Math.abs(a[1] - b[1])), h: 0 }),
     move: moved,
     turn: turned,
@@ -114,21 +135,21 @@ export const KINDS = {
       return { ...box, x: cm(x), y: cm(y), w: Math.max(1, Math.round(Math.abs(px - qx))), d: Math.max(1, Math.round(Math.abs(py - qy))) };
     },
     points: middle,
-    fact: (box) => fact('box', box.x, box.y, box.w, box.d, ...(box.h || box.traits ? [box.h] : []), ...(box.traits ? [box.traits] : [])),
+    fact: (box) => fact('box', box.x, box.y, box.w, box.d, ...(box.h || options(box).length ? [box.h] : []), ...options(box)),
   },
   circle: {
     tool: 'Circle',
     solid: 'block',
     path: (path, { r }, at) => path.arc(at.x, at.y, r, 0, 7),
-    words: (circle) => `Circle of radius ${circle.r} at ${circle.x}, ${circle.y}`,
-    fields: [...AT, number('Radius', 'r')],
+    words: (circle) => `Circle of radius ${circle.r}${weight(circle)} at ${circle.x}, ${circle.y}`,
+    fields: [...AT, number('Radius', 'r'), MOVES, MASS, ROLLS],
     between: (a, b) => ({ kind: 'circle', x: a[0], y: a[1], r: Math.max(1, Math.round(far(a, b))) }),
     move: moved,
     turn: null,
     handles: (circle) => [[circle.x + circle.r, circle.y]],
     take: (circle, _, place) => ({ ...circle, r: Math.max(1, Math.round(far([circle.x, circle.y], place))) }),
     points: middle,
-    fact: (circle) => fact('circle', circle.x, circle.y, circle.r, ...(circle.traits ? [circle.traits] : [])),
+    fact: (circle) => fact('circle', circle.x, circle.y, circle.r, ...options(circle)),
   },
   line: {
     tool: 'Line',
@@ -235,7 +256,7 @@ export function draftOf(world) {
   if (!world) return EMPTY;
   const [x, y, h] = world.start;
   const { bounds, floor, ambient, temperature, loudness } = world;
-  return { around: { kind: 'around', bounds, color: floor, ambient, temperature, loudness }, start: { kind: 'start', x, y, h }, items: world.items };
+  return { around: { kind: 'around', bounds, color: floor, ambient, temperature, loudness }, start: { kind: 'start', x, y, h }, items: world.items.map(({ held, ...item }) => item) };
 }
 
 /** A draft as a frame has a world. */

@@ -4,6 +4,7 @@
 // moves the slider.
 
 import { $, attribute, clock, goTo, text, toggle, upper } from './dom.js';
+import { at } from './model.js';
 
 /** The frames that are kept, 11 MB in all: if there are more, every other one of the older half goes. */
 const MOST_FRAMES = 3000;
@@ -88,8 +89,11 @@ export class Timeline {
     const near = Math.abs(found.time - t) <= SEEN_WITHIN;
     const past = Object.create(model);
     for (const name of KEPT) past[name] = found[name];
+    const things = found.frame.things?.map(({ id, pose: was, held }) => ({ id, pose: pose(['x', 'y', 'heading'].map((part) => `thing${id}.${part}`)) ?? was, held: near && held }));
+    if (things) past.world = { ...past.world, items: past.world.items.map((item) => ({ ...item, ...things.filter(({ id }) => id === item.id).map(at)[0] })) };
     past.frame = {
       ...found.frame,
+      things,
       clock: { ...time, time: t },
       robot: robot && { ...robot, true: truly, believed: believed && { ...robot.believed, pose: believed, ellipse: near ? robot.believed?.ellipse : null } },
       see: near ? see : [],
@@ -151,8 +155,8 @@ function sampled({ time, columns }, until, t) {
 function measured(port, value, near) {
   const at = (name, old) => value(`${port.port}.${name}`) ?? old;
   if (port.kind === 'motor') {
-    const [position, speed, duty] = ['position', 'speed', 'duty'].map((name) => at(name, port[name]));
-    return { ...port, position, speed, duty, state: near ? port.state : speed ? ['running'] : [] };
+    const [position, speed, duty, opening] = ['position', 'speed', 'duty', 'opening'].map((name) => at(name, port[name]));
+    return { ...port, position, speed, duty, opening, state: near ? port.state : speed ? ['running'] : [] };
   }
   if (port.kind === 'sensor') return { ...port, values: port.values?.map((old, i) => at(`value${i}`, old)) };
   return port;

@@ -4,7 +4,7 @@
 import { along } from './canvas.js';
 import { $, attribute, el, num, text, toggle } from './dom.js';
 import { Picture, between } from './picture.js';
-import { KINDS, TURN, cm } from './things.js';
+import { KINDS, TURN, cm, isThing } from './things.js';
 
 export const LAYERS = [
   ['floor', 'Centimeter grid'], ['trail', 'Trail'], ['believed', 'Believed pose'],
@@ -27,7 +27,7 @@ export class World extends Picture {
     this.following = false;
     this.measured = null;
     this.drag = null;
-    this.put = null;
+    this.lifted = null;
     this.selected = null;
     this.pointers = new Map();
     this.trail = { age: -1 };
@@ -62,7 +62,9 @@ export class World extends Picture {
     const before = first ? null : this.still();
     this.model = model;
     if (came.has('world')) {
-      this.selected = null;
+      // What is selected is so still, unless it is another world.
+      const id = model.frame.new ? null : this.selected?.id;
+      if (this.selected !== 'robot' || model.frame.new) this.selected = model.world?.items.find((item) => item.id === id) ?? null;
       // A box that moves leaves what is being measured; another world does not.
       if (model.frame.new) this.measured = null;
       if (!this.camera.own || model.frame.new) this.fit();
@@ -71,7 +73,7 @@ export class World extends Picture {
     this.stale ||= !model.frame.calm || (this.fades && !model.frame.clock.stands);
     if (model.frame.calm) return;
     this.legend();
-    if (this.selected === 'robot' && !this.drag) this.told();
+    if ((this.selected || came.has('world')) && !this.drag) this.told();
     this.describe();
   }
 
@@ -93,14 +95,15 @@ export class World extends Picture {
   still() {
     const { frame } = this.model ?? {};
     if (!frame?.robot) return null;
-    return { true: this.now?.true ?? frame.robot.true, pose: this.now?.pose ?? frame.robot.believed?.pose, see: frame.see };
+    const things = this.now?.things ?? placesOf(frame);
+    return { true: this.now?.true ?? frame.robot.true, pose: this.now?.pose ?? frame.robot.believed?.pose, see: frame.see, things };
   }
 
   /** A short motion to the new frame, if it is one: not after a jump. */
   blend(before, interval) {
-    const after = this.model.frame.robot;
+    const { robot: after } = this.model.frame;
     const moved = (a, b) => a && b && Math.hypot(a[0] - b[0], a[1] - b[1]) + Math.abs(a[2] - b[2]) / 10;
-    const way = before && after && (moved(before.true, after.true) ?? moved(before.pose, after.believed?.pose));
+    const way = before && after && Math.max(moved(before.true, after.true) ?? moved(before.pose, after.believed?.pose) ?? 0, ...[...placesOf(this.model.frame)].map(([id, at]) => moved(before.things.get(id), at) ?? 0));
     this.now = null;
     if (!way || way < 0.02 || way > 15 || this.drag?.kind === 'robot' || this.calm.matches) return null;
     return { before, start: performance.now(), length: Math.min(120, interval) };
@@ -117,6 +120,7 @@ export class World extends Picture {
         true: robot.true && before.true ? between(before.true, robot.true, share) : robot.true,
         pose: robot.believed && before.pose ? between(before.pose, robot.believed.pose, share) : robot.believed?.pose,
         share, before,
+        things: new Map([...placesOf(this.model.frame)].map(([id, at]) => [id, between(before.things.get(id) ?? at, at, share)])),
       };
       if (share >= 1) {
         this.motion = null;
@@ -141,6 +145,7 @@ export class World extends Picture {
     if (truly) parts.push(`The robot is at ${said(truly)}.`);
     if (believed) parts.push(`It believes that it is at ${said(believed.pose)}.`);
     if (frame.robot?.hits) parts.push(`It ran into something ${frame.robot.hits === 1 ? 'once' : `${frame.robot.hits} times`}.`);
+    for (const { traits, kind, x, y, held } of (world?.items ?? []).filter(isThing).slice(0, 8)) parts.push(`${traits.name ?? `A ${kind}`} is at x ${num(x)}, y ${num(y)}${held ? ', held by the gripper' : ''}.`);
     for (const seen of frame.see ?? []) {
       if (seen.kind === 'cone') parts.push(seen.hit ? `${seen.port} sees something.` : `${seen.port} sees nothing.`);
     }
@@ -327,38 +332,54 @@ export class World extends Picture {
       if (w >= 0.5 && d >= 0.5) this.send(`add box ${cm(at[0])} ${cm(at[1])} ${cm(w)} ${cm(d)}`);
       this.use('move');
     } else if (drag.kind === 'robot' && this.moved) {
-      this.putRobot(drag.at);
+      this.put(drag.at, 'robot');
     } else if (drag.kind === 'item' && this.moved) {
-      [drag.item.x, drag.item.y] = [drag.at.x, drag.at.y];
-      this.send(`move ${drag.item.id} ${cm(drag.at.x)} ${cm(drag.at.y)} ${cm(drag.item.h ?? 0)}`);
+      this.put([drag.at.x, drag.at.y, drag.item.h ?? 0], drag.item);
     }
     this.told();
     this.draw();
   }
 
-  turn(by) {
-    const pose = this.model?.frame?.robot?.true;
-    if (pose) this.putRobot([pose[0], pose[1], Math.round(pose[2]) + by]);
+  /** Moves and turns what is selected; answers whether something is. */
+  shift(right, up, by = 0) {
+    const { selected } = this;
+    const [x, y, h] = selected === 'robot' ? this.model.frame.robot?.true ?? [] : [selected?.x, selected?.y, selected?.h ?? 0];
+    if (x !== undefined) this.put([x + right, y + up, by ? Math.round(h) + by : h], selected);
+    return x !== undefined;
   }
 
-  /** Puts the robot at a pose. */
-  putRobot(pose) {
+  /** The next one of the robot and the things that can be moved is selected. */
+  selectNext() {
+    const all = ['robot', ...(this.model?.world?.items ?? []).filter(({ x }) => x !== undefined)];
+    if (this.model?.simulated) this.select(all[(all.indexOf(this.selected) + 1) % all.length]);
+    this.draw();
+  }
+
+  /** Puts the robot or a thing at a pose. */
+  put(pose, what) {
+    if (what !== 'robot') {
+      [what.x, what.y, what.h] = pose;
+      this.send(`move ${what.id} ${pose.map(cm).join(' ')}`);
+      this.told();
+      this.draw();
+      return;
+    }
     if (!this.send(`place ${pose.map(cm).join(' ')}`)) return;
-    this.put = { pose, answers: (this.put?.answers ?? 0) + 1, since: performance.now() };
+    this.lifted = { pose, answers: (this.lifted?.answers ?? 0) + 1, since: performance.now() };
     this.keepPut(this.model.frame);
   }
 
   /** The robot is shown where it was put: a frame of before may still come. */
   keepPut(frame) {
-    if (frame.new || performance.now() - this.put?.since > ANSWERED_WITHIN) this.put = null;
-    if (this.put && frame.robot?.true) frame.robot.true = this.put.pose;
+    if (frame.new || performance.now() - this.lifted?.since > ANSWERED_WITHIN) this.lifted = null;
+    if (this.lifted && frame.robot?.true) frame.robot.true = this.lifted.pose;
   }
 
   /** The program has put the robot there, or has said why not: the next frame is of after. */
   answered() {
-    if (!this.put) return;
-    this.put.answers -= 1;
-    if (this.put.answers === 0) this.put = null;
+    if (!this.lifted) return;
+    this.lifted.answers -= 1;
+    if (this.lifted.answers === 0) this.lifted = null;
   }
 
   select(what) {
@@ -383,6 +404,10 @@ export class World extends Picture {
     let words = '';
     const actions = [];
     const action = (...all) => actions.push(all);
+    const turns = () => {
+      action('−15°', 'Turn left by 15 degrees', () => this.shift(0, 0, -15));
+      action('+15°', 'Turn right by 15 degrees', () => this.shift(0, 0, 15));
+    };
     if (this.tool === 'add-box') words = 'Draw a box';
     else if (this.tool === 'measure') {
       const [a, b] = this.measured ?? [];
@@ -391,13 +416,13 @@ export class World extends Picture {
       const pose = drag?.at ?? this.model.frame.robot?.true;
       if (pose) {
         words = `Robot at ${num(pose[0], 1)}, ${num(pose[1], 1)} cm, ${num(pose[2])}°`;
-        action('−15°', 'Turn left by 15 degrees', () => this.turn(-15));
-        action('+15°', 'Turn right by 15 degrees', () => this.turn(15));
+        turns();
       }
     } else if (selected) {
       const at = drag?.at ?? selected;
       const size = selected.kind === 'box' ? ` ${num(selected.w)} × ${num(selected.d)}` : selected.kind === 'circle' ? ` of radius ${num(selected.r)}` : '';
       words = `${selected.kind[0].toUpperCase()}${selected.kind.slice(1)}${size} at ${num(at.x)}, ${num(at.y)} cm`;
+      if (KINDS[selected.kind].turn) turns();
       action('Remove', 'Remove it from the world', () => { this.send(`remove ${selected.id}`); this.select(null); });
     }
     box.hidden = !words;
@@ -412,6 +437,9 @@ export class World extends Picture {
     box.replaceChildren(el('p', {}, words), ...actions.map(([name, title, onclick]) => el('button', { class: 'tool text', title, onclick }, name)));
   }
 }
+
+/** Where the things of a frame are, by their numbers. */
+const placesOf = ({ things = [] }) => new Map(things.map(({ id, pose }) => [id, pose]));
 
 // Asks whether a point is in a path, in centimeters.
 let flatContext = null;

@@ -5,7 +5,9 @@
 //! A virtual clock jumps, so somebody who only looked now and then would miss what lies between.
 use crate::brick::port::Port;
 use crate::log::Log;
+use crate::world::ItemId;
 use ev3_motion::Pose;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// How many samples are kept.
@@ -29,6 +31,8 @@ pub struct Sample {
     pub at: Duration,
     /// The true pose of the robot.
     pub pose: Pose,
+    /// Where the things are that robots push.
+    pub things: Arc<[(ItemId, Pose)]>,
     /// The values of the devices, in the order of [`Port::ALL`].
     pub(super) ports: [Values; Port::ALL.len()],
 }
@@ -40,8 +44,8 @@ pub(super) struct Values {
 }
 
 impl Sample {
-    /// Position, speed and duty of a motor as its files show them, or the first four values of a
-    /// sensor; empty for all else.
+    /// Position, speed and duty of a motor as its files show them, and how far apart the jaws are
+    /// that it moves, in cm; or the first four values of a sensor; empty for all else.
     pub fn values(&self, port: Port) -> &[f64] {
         let Values { count, values } = &self.ports[port as usize];
         &values[..*count]
@@ -65,9 +69,14 @@ impl Film {
     }
 
     /// Adds what there is at a moment.
-    pub(super) fn take(&mut self, sample: Sample) {
+    pub(super) fn take(&mut self, mut sample: Sample) {
+        if let Some(old) = self.kept.newest().next().filter(|old| old.things == sample.things) {
+            sample.things = Arc::clone(&old.things);
+        }
         // Of a time at which nothing changes, the first and the last are enough.
-        let is_same = |old: &&Sample| old.pose == sample.pose && old.ports == sample.ports;
+        let is_same = |old: &&Sample| {
+            old.pose == sample.pose && old.ports == sample.ports && old.things == sample.things
+        };
         if self.kept.newest().take(2).filter(is_same).count() == 2 {
             self.kept.pop();
         }

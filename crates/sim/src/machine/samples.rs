@@ -38,12 +38,14 @@ impl Machine {
         let ports = Port::ALL.map(|port| match self.device(port) {
             Some(Hardware::Tacho(motor)) => {
                 let shown = motor.shown();
-                [shown.position, shown.speed, shown.duty].map(f64::from).into_iter().collect()
+                let all = [shown.position, shown.speed, shown.duty].map(f64::from);
+                all.into_iter().chain(self.opening(port)).collect()
             }
             Some(Hardware::Sensor(sensor)) => self.shown_values(sensor).collect(),
             _ => Values::default(),
         });
-        let sample = Sample { at, pose: self.body.pose, ports };
+        let things = self.things.iter().map(|thing| (thing.id, thing.pose())).collect();
+        let sample = Sample { at, pose: self.body.pose, things, ports };
         if let Some(film) = &mut self.film {
             film.take(sample);
         }

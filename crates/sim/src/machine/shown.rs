@@ -61,6 +61,8 @@ pub struct ShownMotor {
     pub stop_action: &'static str,
     /// A hand holds its shaft fast.
     pub is_held: bool,
+    /// How far apart the jaws are that it moves, in cm.
+    pub opening: Option<f64>,
 }
 
 /// A sensor.
@@ -131,7 +133,11 @@ impl Machine {
         let socket = &self.sockets[port as usize];
         match (self.device(port), socket.plug) {
             (Some(Hardware::Tacho(motor)), Some(_)) => {
-                Shown::Motor(shown_motor(motor, self.shafts[port.slot()].jammed))
+                let is_held = self.shafts[port.slot()].jammed;
+                Shown::Motor(ShownMotor {
+                    opening: self.opening(port),
+                    ..shown_motor(motor, is_held)
+                })
             }
             (Some(Hardware::DcMotor(motor)), _) => {
                 Shown::DcMotor { duty: motor.shown_duty(), state: motor.state() }
@@ -248,5 +254,6 @@ fn shown_motor(motor: &Tacho, is_held: bool) -> ShownMotor {
         state: motor.state(),
         stop_action: shown.stop_action,
         is_held,
+        opening: None,
     }
 }

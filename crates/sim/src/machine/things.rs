@@ -1,4 +1,5 @@
 //! The items of the world, and the things among them that robots push.
+use crate::brick::port::Port;
 use crate::machine::grip::Grip;
 use crate::machine::room::Room;
 use crate::machine::{Machine, crowd};
@@ -100,6 +101,12 @@ impl Machine {
     /// The numbers of the things that its grippers hold.
     pub fn held(&self) -> impl Iterator<Item = ItemId> {
         self.grips.iter().filter_map(Grip::held)
+    }
+
+    /// How far apart the jaws are that the motor at a port moves, in cm.
+    pub(super) fn opening(&self, port: Port) -> Option<f64> {
+        let gripper = self.robot.grippers.iter().find(|gripper| gripper.port == port)?;
+        Some(gripper.opening * (1.0 - self.shafts[port.slot()].share()?))
     }
 
     /// Whether a gripper holds a thing above the floor.

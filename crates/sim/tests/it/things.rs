@@ -3,7 +3,7 @@ use crate::desk::{A, B, C, Desk};
 use crate::robots::{default_robot, touch_robot};
 use ev3_sim::facts::Subject;
 use ev3_sim::{
-    Bounds, Gripper, Item, ItemId, Machine, Options, Port, Pose, RobotSpec, Thing, Traits,
+    Bounds, Gripper, Item, ItemId, Machine, Options, Port, Pose, RobotSpec, Sample, Thing, Traits,
     WorldSpec,
 };
 use std::fmt::Write;
@@ -395,6 +395,25 @@ fn what_a_gripper_holds_comes_along() {
         assert!(!desk.thing().is_moving(), "it lies on the floor");
         assert_eq!(halts(&desk.0), 0);
     }
+}
+
+#[test]
+fn samples_have_things_and_jaws_as_they_were() {
+    let world =
+        WorldSpec { items: vec![square([0.0, 12.0], 6.0, mass(0.1))], ..WorldSpec::default() };
+    let mut desk = Desk::with(&world, &with_gripper(Gripper::default()));
+    desk.0.keep_samples(true);
+    desk.run(A, &[("duty_cycle_sp", 40)], "run-direct");
+    desk.step(1000);
+    desk.drive(300, 300);
+    desk.step(1000);
+    let samples = desk.0.samples(None);
+    let (first, last) = (samples[0], samples[samples.len() - 1]);
+    let place = |sample: &Sample| sample.things[0].1.y - sample.pose.y;
+    assert!(samples.iter().all(|sample| (place(sample) - 12.0).abs() < 0.01));
+    assert!(last.things[0].1.y > 20.0 && last.things[0].0 == desk.thing().id());
+    let opening = |sample: &Sample| sample.values(Port::OutA)[3];
+    assert!((opening(first), opening(last).round()) == (8.0, 6.0), "{}", opening(last));
 }
 
 #[test]
