@@ -122,12 +122,21 @@ wrong(Kind, Seed, Goal-Error) :-
 thrown(native, _).
 thrown(public, Error) :-
     (   acyclic_term(Error),
+        small(Error, 500, _),           % SWI-Prolog 7.2.3 writes a large one for minutes
         catch(( format(string(Text), "~k", [Error]), term_to_atom(_, Text) ), error(_, _), fail),
-        string_length(Text, Length),
-        Length < 2000,
         \+ was_thrown(Text)
     ->  assertz(was_thrown(Text))
     ;   true
+    ).
+
+%   It has fewer than Limit subterms; the Left ones are for what stands beside it.
+small(Term, Limit, Left) :-
+    Limit > 0,
+    Left0 is Limit-1,
+    (   compound(Term)
+    ->  compound_name_arguments(Term, _, Arguments),
+        foldl(small, Arguments, Left0, Left)
+    ;   Left = Left0
     ).
 
 %   By a Prolog that knows nothing of the pack; each has a line, or several.

@@ -39,6 +39,7 @@ for (const { world, example, goal, seconds, prepare = [], shots } of PICTURES) {
     await keep(browser, shot, name);
   }
   for (const page of pages) await page.close();
-  await session.end();
+  session.prolog.kill();       // its program does not end
+  await session.ended;
 }
 await browser.close();

@@ -74,7 +74,6 @@ begins(Cause) :-
 %   in words. A library that knows adds a clause.
 
 :- multifile explained/3.
-:- dynamic explained/3.
 
 note(Number, Former, Cause) :-
     in_own_name(assertz(cause(Number, Former, Cause))),  % none that is cyclic
