@@ -252,7 +252,7 @@ done(Time, What, Command, Cause, Called) :-
 
 concerning(What, Until, done(Time, Of, Command, Cause, Called)) :-
     done(Time, Of, Command, Cause, Called),
-    Time =< Until,
+    Time @=< Until,            % a number stands before the atom inf
     Command \= pose(_, _, _),
     is_about(What, Of).
 

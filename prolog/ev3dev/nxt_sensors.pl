@@ -61,7 +61,6 @@ measured(Reading, Port, Value) :-
 %   forced(Kind, Value): PLNXT has these predicates, too, with the arguments
 %   (Value, force). library(ev3dev/plnxt) adds a clause.
 :- multifile forced/2.
-:- dynamic forced/2.
 
 % Reads as many values as the list Values has elements.
 values(Port, Types, Mode, Values) :-

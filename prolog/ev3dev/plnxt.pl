@@ -348,7 +348,6 @@ nxt_touch(Pressed, Force) :-
     new_value(touch, Pressed).
 
 :- multifile ev3dev_nxt_sensors:forced/2.
-:- dynamic ev3dev_nxt_sensors:forced/2.
 
 ev3dev_nxt_sensors:forced(Kind, Value) :-
     ev3dev_plnxt:new_value(Kind, Value).

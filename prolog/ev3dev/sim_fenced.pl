@@ -197,7 +197,6 @@ in_directory(Directory, Paths, Goal, Seed-Thinking,
 %   runs_here(+Path, +Run, +Files, -Ended).
 
 :- multifile runs_here/4.
-:- dynamic runs_here/4.
 
 in_process([Socket, ToldBy, Seed]-Thinking, Paths, Goal, Directory-Output,
            limits(Seconds, Sleep, Cpu, Memory, Shut), Ended) :-

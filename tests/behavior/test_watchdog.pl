@@ -82,10 +82,10 @@ test(not_on_the_virtual_clock_nor_without_the_flag,
     said_after(Clock, Flag, "motor_run(outB, 30)", "compute(1)", [First|_]).
 test(another_thread_may_compute, true(First == "outB: running")) :-
     said_after(realtime, 0.3, "motor_run(outB, 30)",
-               "thread_create(compute(1), T), thread_join(T, _)", [First|_]).
+               "thread_create(compute(1), T, []), thread_join(T, _)", [First|_]).
 test(the_motors_of_a_thread_are_its_own, true(once(( warned(Lines), was_stopped(Lines) )))) :-
     said_after(realtime, 0.3, "motor_run(outC, 30)",
-               "thread_create(( motor_run(outB, 30), compute(1) ), T), thread_join(T, _),
+               "thread_create(( motor_run(outB, 30), compute(1) ), T, []), thread_join(T, _),
                 ( state(outC, running) -> true ; writeln(outC_rests) )", Lines).
 test(the_flag_is_a_number_of_seconds, error(type_error(float, x), _)) :-
     set_prolog_flag(ev3dev_watchdog, x).
@@ -157,7 +157,7 @@ test(it_is_the_same_each_time,
                                     ( wait(0.1), us_dist_cm(in1, _), count(30000),
                                       motor_position(outB, _) ))",
                               "go(30), thread_create(( us_dist_cm(in1, _), count(50000),
-                                                       us_dist_cm(in1, _) ), T),
+                                                       us_dist_cm(in1, _) ), T, []),
                                wait(0.3), count(20000), thread_join(T, _)" ])),
        true(One-All = One-[_]) ]) :-
     findall(Place, ( between(1, 3, _), place(thinking(brick), Goals, Place) ), Places),

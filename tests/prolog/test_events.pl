@@ -1,4 +1,5 @@
 :- use_module('../support/child').
+:- use_module('../support/old_prolog').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/events)).

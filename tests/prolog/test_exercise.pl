@@ -4,6 +4,7 @@
 :- use_module('../support/cases').
 :- use_module('../support/cheats').
 :- use_module('../support/child').
+:- use_module('../support/old_prolog').
 :- use_module('../support/redis').
 :- use_module('../support/trees').
 :- use_module(library(ev3dev/exercise)).
@@ -344,13 +345,13 @@ test(an_interrupted_marking_goes_on, [condition(can_enclose), Left-Lines == []-2
     with_folder(( folder(Folder), program(honest, One),
                   atom_concat(Folder, '/exercise.pl', Exercise),
                   atom_concat(Folder, '/out', Out), atom_concat(Out, '/runs.pl', File),
+                  atom_concat('TMP=', Folder, TMP),
                   file(slow, [":- use_module(library(ev3dev)).", "start :- col_ambient(_, _), start."],
                        Slow),
                   Command = ['-q', 'app/ev3dev.pl', mark, Exercise, One, Slow, '--seeds', '1',
                              '--jobs', '1', '--out', Out],
-                  process_create(Prolog, Command,
-                                 [ stdin(null), stdout(null), stderr(pipe(Err)), process(Pid),
-                                   environment(['TMP'=Folder]) ]),
+                  process_create(path(env), [TMP, Prolog|Command],
+                                 [ stdin(null), stdout(null), stderr(pipe(Err)), process(Pid) ]),
                   until(lines(File, 1)),
                   process_kill(Pid, int),
                   read_string(Err, _, Said),

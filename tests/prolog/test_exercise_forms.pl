@@ -141,8 +141,8 @@ test(names_in_a_locale_without_letters, Text == "ok") :-
           format(atom(Goal), "ev3dev_marking_submissions:submissions([~q],start,S,_),length(S,8),write(ok)",
                  [Plain]),
           absolute_file_name(library(ev3dev/private/marking/submissions), File, [file_type(prolog)]),
-          process_create(Swipl, ['-q', '-f', none, '-g', Goal, '-t', halt, '-s', file(File)],
-                         [environment(['LC_ALL'='C']), stdout(pipe(Out))]),
+          process_create(path(env), ['LC_ALL=C', file(Swipl), '-q', '-f', none, '-g', Goal, '-t', halt, '-s', file(File)],
+                         [stdout(pipe(Out))]),
           read_string(Out, _, Text),
           close(Out) )).
 

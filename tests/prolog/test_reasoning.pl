@@ -178,7 +178,7 @@ test(flags_and_debugger_are_as_before,
 
 test(flags_and_debugger_are_as_before_after_an_abort, true(After == Before)) :-
     state(Before),
-    thread_create(reasoning(user:( one, abort )), Thread),
+    thread_create(reasoning(user:( one, abort )), Thread, []),
     thread_join(Thread, _),
     state(After).
 
@@ -193,7 +193,7 @@ test(a_time_limit_inside_ends_it,
 test(a_signal_ends_it, [forall(between(1, 50, _)), throws(stop_it)]) :-
     thread_self(Me),
     setup_call_cleanup(
-        thread_create(signals(Me), Thread),
+        thread_create(signals(Me), Thread, []),
         reasoning(endless_catch),
         thread_join(Thread, _)).
 

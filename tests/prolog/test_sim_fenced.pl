@@ -1,4 +1,5 @@
 :- use_module('../support/child').
+:- use_module('../support/old_prolog').
 :- use_module('../support/probes').
 :- use_module('../support/trees').
 :- use_module(library(ev3dev/sim_fenced)).

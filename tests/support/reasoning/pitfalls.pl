@@ -38,7 +38,7 @@ len([], 0).
 len([_|L], N) :- len(L, M), N is M+1.
 down(0) :- !.
 down(N) :- N1 is N-1, down(N1).
-other_thread :- thread_create(down(100), Id), thread_join(Id, true).
+other_thread :- thread_create(down(100), Id, []), thread_join(Id, true).
 
 % Predicates that are changed while they run; DCG; goals of other modules.
 :- dynamic seen/1.

@@ -256,7 +256,6 @@ key(Name/Arity, Key) :-
 %   The first two calls, the last one, and their number.
 
 :- multifile ev3dev_last_goal:noted/3.
-:- dynamic ev3dev_last_goal:noted/3.
 
 ev3dev_last_goal:noted(_, _, Goal) :-
     ev3dev_watched_run:counted(Goal).

@@ -436,7 +436,6 @@ run_of(batch(_-Text, Read, Programs, Enclosed, _, _), Program-Seed,
 %   runs_here(+Jobs, +Exercise, +Programs, -Results).
 
 :- multifile runs_here/4.
-:- dynamic runs_here/4.
 
 made_results([], _, []) :-
     !.

@@ -162,7 +162,6 @@ forget(Brick) :-
 %   something of the world.
 
 :- multifile other_world/1.
-:- dynamic other_world/1.
 
 %!  of_brick(:Facts) is det.
 %

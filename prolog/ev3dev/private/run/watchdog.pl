@@ -69,7 +69,6 @@ said(Queue, Ports, Seconds) :-
 %   stopped. private/bricks/far.pl adds a clause.
 
 :- multifile far_stopped/2.
-:- dynamic far_stopped/2.
 
 %!  thought(+Seconds, +Degrees, +Limit, +Ports) is det.
 %
@@ -93,7 +92,6 @@ thought(Seconds, Degrees, Limit, Ports) :-
 %   robot adds a clause.
 
 :- multifile rolled/2.
-:- dynamic rolled/2.
 
 %!  heard_thought(+Seconds, +Cm, +Place) is det.
 %
@@ -101,7 +99,6 @@ thought(Seconds, Degrees, Limit, Ports) :-
 %   `none`.
 
 :- multifile heard_thought/3.
-:- dynamic heard_thought/3.
 
 here(Place) :-
     prolog_current_frame(Frame),

@@ -25,7 +25,6 @@ it prints and its answers. What it reads is typed into the page.
 
 %   failed(Goal): what else is to be said of a goal that is false.
 :- multifile failed/1.
-:- dynamic failed/1.
 
 %!  goal_line(+Word, +Rest, +Page, -Refused) is semidet.
 %
