@@ -147,10 +147,10 @@ load_goal(ev3dev, "use_module(library(ev3dev))") :-
 load_goal(Library, Goal) :-
     format(string(Goal), "use_module(library(ev3dev/~w))", [Library]).
 
-%   Two lines of one message
+%   Two lines of one message; SWI-Prolog 7.2.3 has one of its own before
 
 says_so(Line) :-
-    member(Part, ["library_file.pl:", "cannot be used"]),
+    member(Part, ["library_file.pl:", "cannot be used", "Prolog initialisation failed:"]),
     sub_string(Line, _, _, _, Part),
     !.
 

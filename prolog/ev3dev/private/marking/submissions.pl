@@ -117,7 +117,11 @@ handed(File, Index, _, _, handed(Index, Name, [], Items)) :-
     Items = [item(File, Base, Content)].
 handed(Folder, _, Goal, Links, handed(named-Place, Name, Keys, Items)) :-
     Goal \== none,
-    absolute_file_name(Folder, Absolute),
+    absolute_file_name(Folder, Absolute0),
+    (   atom_concat(Absolute, /, Absolute0)     % SWI-Prolog 7.2.3 leaves it there
+    ->  true
+    ;   Absolute = Absolute0
+    ),
     file_base_name(Absolute, Base),
     folder_items(Folder, Folder, '', Links, Items),
     (   moodle(Base, Place, Name, Keys)
