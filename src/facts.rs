@@ -112,6 +112,7 @@ fn value<'a, C: QueryableContextType>(
         Kind::Traits => Value::Traits(traits(call, term)?),
         Kind::WheelOptions => wheel_options(call, term)?,
         Kind::MotorOptions => Value::MotorOptions(stops(call, term)?),
+        Kind::SensorOptions => sensor_options(call, term)?,
         Kind::GripperOptions => Value::GripperOptions(gripper(call, term)?),
         Kind::EchoOptions => Value::EchoOptions(echo(call, term)?),
     })
@@ -235,6 +236,23 @@ fn wheel_options<'a, C: QueryableContextType>(
         }
     }
     Ok(Value::WheelOptions { inverted, slip })
+}
+
+/// A list of `looks(Direction)`.
+fn sensor_options<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    options: &Term<'a>,
+) -> PrologResult<Value> {
+    let mut looks_ahead = false;
+    each_option(call, "sensor_option", options, |name, value| {
+        looks_ahead = match (name, &*call.text(value)?) {
+            ("looks", "ahead") => true,
+            ("looks", "down") => false,
+            _ => return Ok(false),
+        };
+        Ok(true)
+    })?;
+    Ok(Value::SensorOptions { looks_ahead })
 }
 
 /// A list of `half_angle(Degrees)`, `incidence(Degrees)`, `miss(Share)`, `spurious(Share)`.

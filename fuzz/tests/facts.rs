@@ -91,6 +91,7 @@ impl Any {
             Kind::MotorOptions => {
                 Value::MotorOptions((choice % 2 == 0).then(|| [number(0), number(1)]))
             }
+            Kind::SensorOptions => Value::SensorOptions { looks_ahead: choice % 2 == 0 },
             Kind::GripperOptions => Value::GripperOptions(Gripper {
                 opening: number(0),
                 force: number(1),

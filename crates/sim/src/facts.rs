@@ -36,12 +36,23 @@ const SETTINGS: &[Form] = {
     ]
 };
 const OF_ROBOTS: &[Form] = {
-    use Kind::{EchoOptions, GripperOptions, Hull, MotorOptions, Number, Port, Text, WheelOptions};
+    use Kind::{
+        EchoOptions, GripperOptions, Hull, MotorOptions, Number, Port, SensorOptions, Text,
+        WheelOptions,
+    };
     const PORT: (&str, Kind) = ("Port", Port);
     const TYPE: (&str, Kind) = ("Type", Text);
     const SIGMA: (&str, Kind) = ("Sigma", Number);
     const GRIPPER: &[(&str, Kind)] =
         &[PORT, ("X", Number), ("Y", Number), ("Options", GripperOptions)];
+    const SENSOR: &[(&str, Kind)] = &[
+        PORT,
+        TYPE,
+        ("X", Number),
+        ("Y", Number),
+        ("Heading", Number),
+        ("Options", SensorOptions),
+    ];
     const WHEEL: &[(&str, Kind)] = &[PORT, ("Diameter", Number), ("Options", WheelOptions)];
     &[
         Form::with_default("left_wheel", WHEEL),
@@ -50,7 +61,7 @@ const OF_ROBOTS: &[Form] = {
         Form::new("hull", &[("Hull", Hull)]),
         Form::new("mass", &[("Kilograms", Number)]),
         Form::with_default("motor", &[PORT, TYPE, ("Options", MotorOptions)]),
-        Form::new("sensor", &[PORT, TYPE, ("X", Number), ("Y", Number), ("Heading", Number)]),
+        Form::with_default("sensor", SENSOR),
         Form::new("noise", &[PORT, SIGMA, ("Bias", Number)]),
         Form::new("encoder_noise", &[PORT, SIGMA]),
         Form::new("echo", &[PORT, ("Options", EchoOptions)]),
@@ -146,8 +157,8 @@ impl Fact {
     /// Errors: if a world cannot be drawn like that.
     pub fn of(name: &str, arguments: &[Value]) -> Result<Option<Fact>, SpecError> {
         use Value::{
-            Color, EchoOptions, GripperOptions, MotorOptions, Number, Port, Rows, Text,
-            WheelOptions,
+            Color, EchoOptions, GripperOptions, MotorOptions, Number, Port, Rows, SensorOptions,
+            Text, WheelOptions,
         };
         if let Some(item) = Item::of(name, arguments) {
             return Ok(Some(Fact::Item(item)));
@@ -183,15 +194,17 @@ impl Fact {
                 encoder_noise: None,
                 stops: if let [MotorOptions(stops)] = options { *stops } else { None },
             }),
-            ("sensor", [Port(port), Text(driver), Number(x), Number(y), Number(h)]) => {
-                Fact::Sensor(SensorMount {
-                    port: *port,
-                    driver: driver.clone(),
-                    pose: Pose::new(*x, *y, *h),
-                    noise: None,
-                    echo: Echo::default(),
-                })
-            }
+            (
+                "sensor",
+                [Port(port), Text(driver), Number(x), Number(y), Number(h), options @ ..],
+            ) => Fact::Sensor(SensorMount {
+                port: *port,
+                driver: driver.clone(),
+                pose: Pose::new(*x, *y, *h),
+                noise: None,
+                echo: Echo::default(),
+                looks_ahead: matches!(options, [SensorOptions { looks_ahead: true }]),
+            }),
             ("noise", [Port(port), Number(sigma), Number(bias)]) => {
                 Fact::Noise(*port, Noise { sigma: *sigma, bias: *bias })
             }

@@ -83,6 +83,8 @@ pub struct SensorMount {
     pub noise: Option<Noise>,
     /// What an ultrasonic sensor hears.
     pub echo: Echo,
+    /// A color sensor that sees what stands ahead of it, not the floor.
+    pub looks_ahead: bool,
 }
 
 /// A robot: with two driven wheels, or one that stays where it is.
@@ -266,13 +268,17 @@ fn validate_devices(
         }
         used.push(*port);
     }
-    for (index, SensorMount { port, driver, pose, echo, .. }) in sensors.iter().enumerate() {
+    for (index, mount) in sensors.iter().enumerate() {
+        let SensorMount { port, driver, pose, echo, looks_ahead, .. } = mount;
         let fault = |reason: &str| {
             Err(SpecError::new(format!("sensor {driver} on {port}"), reason)
                 .in_part(Part::Sensor(index)))
         };
-        if SensorKind::named(driver).is_none() {
+        let Some(kind) = SensorKind::named(driver) else {
             return fault(&format!("is of no known type; there are: {}", sensors_alike(driver)));
+        };
+        if *looks_ahead && !kind.modes.iter().any(|mode| mode.sense.is_of_spot()) {
+            return fault("cannot look ahead: looks(ahead) is for color and light sensors");
         }
         if port.is_output() || used.contains(port) {
             return fault("needs an input port of its own");

@@ -1,5 +1,6 @@
 % The robot of the paper with a gripper ahead of it, which the medium motor
-% closes: set_robot(5.6, 10.6, outB, outC), set_gripper(outA, []).
+% closes: set_robot(5.6, 10.6, outB, outC), set_gripper(outA, []). The color
+% sensor at in3 looks ahead, at what the jaws may hold.
 
 left_wheel(outB, 5.6).
 right_wheel(outC, 5.6).
@@ -14,5 +15,5 @@ gripper(outA, 0, 11, [opening(9), lifts(true)]).
 
 sensor(in1, 'lego-ev3-us',     0, 7,   0).
 sensor(in2, 'lego-ev3-color', -3, 6.5, -30).
-sensor(in3, 'lego-ev3-color',  3, 6.5,  30).
+sensor(in3, 'lego-ev3-color',  0, 7,   0, [looks(ahead)]).
 sensor(in4, 'lego-ev3-gyro',   0, 0,   0).

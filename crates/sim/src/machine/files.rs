@@ -246,7 +246,7 @@ impl Machine {
     /// The world as a sensor sees it now.
     pub(crate) fn view(&self, sensor: &Sensor) -> View<'_> {
         let port = sensor.port();
-        let (pose, noise, echo) = self.mount(port);
+        let (pose, noise, echo, looks_ahead) = self.mount(port);
         let sample = self.tick / JIFFY_TICKS;
         View {
             scene: &self.scene,
@@ -257,15 +257,16 @@ impl Machine {
             power: self.power(),
             axle: sensor.axle,
             is_held: self.held[port as usize],
+            looks_ahead,
             noise: Source::new(noise, self.options.seed, port as usize, sample),
             echo: echo.at(self.options.seed, port as usize, sample),
         }
     }
 
-    pub(crate) fn mount(&self, port: Port) -> (Pose, Noise, Echo) {
+    pub(crate) fn mount(&self, port: Port) -> (Pose, Noise, Echo, bool) {
         let mount = self.robot.sensors.iter().find(|mount| mount.port == port);
-        mount.map_or((SPARE_MOUNT, Noise::NONE, Echo::default()), |mount| {
-            (mount.pose, mount.noise.unwrap_or_default(), mount.echo)
+        mount.map_or((SPARE_MOUNT, Noise::NONE, Echo::default(), false), |mount| {
+            (mount.pose, mount.noise.unwrap_or_default(), mount.echo, mount.looks_ahead)
         })
     }
 }

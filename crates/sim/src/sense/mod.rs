@@ -6,6 +6,7 @@ pub(crate) mod sight;
 
 use crate::noise::{Heard, Source};
 use crate::sensor::{Axle, Reading, SUPPLY_MV, SWITCHED_MV, Sense};
+use crate::world::color::Color;
 use crate::world::scene::{Others, Scene};
 use ev3_motion::{Pose, Vec2, heading_vector, length};
 
@@ -20,6 +21,10 @@ const INFRARED_RAYS: u32 = 5;
 const INFRARED_FAR: f64 = 70.0;
 /// The color sensor's spot on the floor has this radius, in cm.
 const SPOT: f64 = 0.4;
+/// What looks ahead sees this far, in cm; the light that comes back decreases evenly up to there.
+const AHEAD_FAR: f64 = 4.0;
+/// The color of a surface to which no fact gives a color.
+const UNPAINTED: Color = Color::rgb(128, 128, 128);
 /// How high lamps hang, in cm, and the distance at which their intensity is stated.
 const LAMP_HEIGHT: f64 = 30.0;
 const LAMP_DISTANCE: f64 = 100.0;
@@ -54,6 +59,8 @@ pub(crate) struct View<'a> {
     pub(crate) power: [f64; 4],
     /// The state of the axle that an angle sensor measures.
     pub(crate) axle: Axle,
+    /// Whether a color sensor sees what stands ahead of it, not the floor.
+    pub(crate) looks_ahead: bool,
     /// Whether a hand presses the sensor.
     pub(crate) is_held: bool,
     pub(crate) noise: Source,
@@ -177,16 +184,26 @@ impl View<'_> {
         whole(self.noise.disturb(value).clamp(0.0, 100.0))
     }
 
-    /// Red, green and blue of the floor, 0–255, averaged over the sensor's spot.
+    /// What stands ahead: the share of the light that comes back, and the color that a fact gives.
+    fn ahead(&self) -> Option<(f64, Option<Color>)> {
+        let (here, towards) = (self.pose.vec2(), heading_vector(self.pose.heading));
+        let (distance, color) = self.scene.painted(self.others, here, towards, AHEAD_FAR)?;
+        Some((1.0 - distance / AHEAD_FAR, color))
+    }
+
+    /// Red, green and blue, 0–255: of the floor, averaged over the sensor's spot, or of what stands
+    /// ahead, as bright as it looks.
     fn spot(&self) -> [f64; 3] {
+        if self.looks_ahead {
+            let (share, color) = self.ahead().unwrap_or_default();
+            return parts(color.unwrap_or(UNPAINTED)).map(|part| part * share);
+        }
         let mut sum = [0.0; 3];
         let ring = [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
         let diagonal = [(0.7, 0.7), (0.7, -0.7), (-0.7, 0.7), (-0.7, -0.7)];
         for (x, y) in ring.into_iter().chain(diagonal) {
             let color = self.scene.color_at(self.pose.vec2() + Vec2::new(x, y) * SPOT);
-            sum[0] += f64::from(color.red);
-            sum[1] += f64::from(color.green);
-            sum[2] += f64::from(color.blue);
+            sum = std::array::from_fn(|index| sum[index] + parts(color)[index]);
         }
         sum.map(|part| part / 9.0)
     }
@@ -196,15 +213,22 @@ impl View<'_> {
         self.spot()[0] / 2.55
     }
 
+    /// Nothing near, or nothing with a color, is 0.
     fn color_code(&mut self) -> i32 {
+        let seen = if self.looks_ahead {
+            self.ahead().and_then(|(_, color)| color).map(parts)
+        } else {
+            Some(self.spot())
+        };
+        let Some(seen) = seen else { return 0 };
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "clamped to a byte"
         )]
         let [red, green, blue] =
-            self.spot().map(|part| libm::round(self.noise.disturb(part)).clamp(0.0, 255.0) as u8);
-        crate::world::color::Color { red, green, blue }.code()
+            seen.map(|part| libm::round(self.noise.disturb(part)).clamp(0.0, 255.0) as u8);
+        Color { red, green, blue }.code()
     }
 
     /// Light from all around, and from each lamp that is not in a shadow: it falls with the
@@ -302,6 +326,10 @@ impl View<'_> {
                 BUMPER_TRAVEL,
             )
     }
+}
+
+fn parts(color: Color) -> [f64; 3] {
+    [color.red, color.green, color.blue].map(f64::from)
 }
 
 /// The directions of rays, from left to right.

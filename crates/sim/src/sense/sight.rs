@@ -1,12 +1,15 @@
 //! The shapes in which a sensor sees the world.
 use super::infrared::BEACON_FAR;
 use super::{
-    BUMPER_HALF, INFRARED_FAR, INFRARED_HALF_ANGLE, INFRARED_RAYS, REFLECTOR_FAR, SONAR_FAR,
-    SONAR_RAYS, TIME_OF_FLIGHT_FAR, View,
+    AHEAD_FAR, BUMPER_HALF, INFRARED_FAR, INFRARED_HALF_ANGLE, INFRARED_RAYS, REFLECTOR_FAR,
+    SONAR_FAR, SONAR_RAYS, TIME_OF_FLIGHT_FAR, View,
 };
 use crate::sensor::Sense;
 use crate::world::color::Color;
 use ev3_motion::{Point, Pose, Vec2, length};
+
+/// Half of the angle in which pages show what a color sensor sees ahead, in degrees.
+const AHEAD_SHOWN: f64 = 4.0;
 
 /// The part of the world that a sensor sees in a mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,18 +47,11 @@ impl View<'_> {
             Sense::Proximity => narrow(INFRARED_FAR),
             Sense::Millimeters => narrow(TIME_OF_FLIGHT_FAR),
             Sense::Reflector { .. } => narrow(REFLECTOR_FAR),
-            Sense::Reflection
-            | Sense::Ambient
-            | Sense::Color
-            | Sense::ReflectionRaw
-            | Sense::Rgb
-            | Sense::FineReflection
-            | Sense::FineAmbient
-            | Sense::ColorNumber { .. }
-            | Sense::Part(_)
-            | Sense::Parts(_)
-            | Sense::Row { .. }
-            | Sense::LineSteering => Sight::Spot(self.scene.color_at(self.pose.vec2())),
+            _ if self.looks_ahead && sense.is_of_spot() => self.fan(AHEAD_SHOWN, 3, AHEAD_FAR),
+            Sense::Ambient | Sense::FineAmbient | Sense::Row { .. } | Sense::LineSteering => {
+                Sight::Spot(self.scene.color_at(self.pose.vec2()))
+            }
+            _ if sense.is_of_spot() => Sight::Spot(self.scene.color_at(self.pose.vec2())),
             Sense::Touch | Sense::Volts => {
                 let end = |x| point(self.pose.compose(&Pose::new(x, 0.0, 0.0)).vec2());
                 let (from, to) = (end(-BUMPER_HALF), end(BUMPER_HALF));

@@ -138,6 +138,23 @@ pub(crate) enum Sense {
     Nothing,
 }
 
+impl Sense {
+    /// Whether it is of the spot that a color or light sensor sees.
+    pub(crate) fn is_of_spot(self) -> bool {
+        matches!(
+            self,
+            Sense::Reflection
+                | Sense::Color
+                | Sense::ReflectionRaw
+                | Sense::Rgb
+                | Sense::FineReflection
+                | Sense::ColorNumber { .. }
+                | Sense::Part(_)
+                | Sense::Parts(_)
+        )
+    }
+}
+
 /// One mode of a sensor.
 #[derive(Debug)]
 pub(crate) struct Mode {

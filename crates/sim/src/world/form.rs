@@ -22,6 +22,7 @@ pub enum Kind {
     Traits,
     WheelOptions,
     MotorOptions,
+    SensorOptions,
     EchoOptions,
     GripperOptions,
 }
@@ -58,6 +59,11 @@ pub enum Value {
     },
     /// The stops of a motor's shaft.
     MotorOptions(Option<[f64; 2]>),
+    /// How a sensor is mounted.
+    SensorOptions {
+        /// It sees what stands ahead of it, not the floor.
+        looks_ahead: bool,
+    },
     /// What an ultrasonic sensor hears.
     EchoOptions(Echo),
     /// A gripper at no place yet.

@@ -136,16 +136,40 @@ impl Scene {
         direction: Vec2,
         max: f64,
     ) -> Option<f64> {
+        self.first(others, from, direction, max).map(|(distance, _)| distance)
+    }
+
+    fn first(
+        &self,
+        others: Others,
+        from: Vec2,
+        direction: Vec2,
+        max: f64,
+    ) -> Option<(f64, ItemId)> {
         let ray = Ray::new(Point::from(from), direction);
         let mut nearest = None;
         let mut limit = max;
         for obstacle in self.obstacles.iter().chain(others.iter()) {
             if let Some(distance) = obstacle.cast(&ray, limit) {
                 limit = distance;
-                nearest = Some(distance);
+                nearest = Some((distance, obstacle.id));
             }
         }
         nearest
+    }
+
+    /// How far a ray goes before it meets something, at most `max`, and the color that a fact gives
+    /// it.
+    pub(crate) fn painted(
+        &self,
+        others: Others,
+        from: Vec2,
+        direction: Vec2,
+        max: f64,
+    ) -> Option<(f64, Option<Color>)> {
+        let (distance, met) = self.first(others, from, direction, max)?;
+        let item = self.items.iter().find(|(id, _)| *id == met);
+        Some((distance, item.and_then(|(_, item)| item.traits()?.color)))
     }
 
     /// What a ray meets first, at most `max` away: how far it is, and the surface's normal.

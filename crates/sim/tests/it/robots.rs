@@ -69,6 +69,7 @@ fn fact(line: &str) -> Fact {
                 pose,
                 noise: None,
                 echo: Echo::default(),
+                looks_ahead: false,
             })
         }
         _ => panic!("unknown fact: {line}"),

@@ -130,6 +130,7 @@ fn argument(place: u8, kind: Kind) -> Value {
         Kind::Traits => Value::Traits(Traits { mass: Some(0.05), ..Traits::default() }),
         Kind::WheelOptions => Value::WheelOptions { inverted: true, slip: 0.1 },
         Kind::MotorOptions => Value::MotorOptions(Some([-1.0, 1.0])),
+        Kind::SensorOptions => Value::SensorOptions { looks_ahead: false },
         Kind::GripperOptions => Value::GripperOptions(ev3_sim::Gripper::default()),
         Kind::EchoOptions => Value::EchoOptions(ev3_sim::Echo::default()),
     }

@@ -152,6 +152,7 @@ allowed(jaw_direction,      [positive, negative]).
 allowed(gripper_option,
         [ opening('Cm'), force('Newton'), torque('NewtonMeter'),
           pivot('Boolean'), lifts('Boolean') ]).
+allowed(sensor_option,      [looks(ahead), looks(down)]).
 allowed(thing_option,
         [ mass('Kg'), friction('Share'), height('Cm'), rolls('Boolean'),
           bounces('Share'), color('Color'), name('Name') ]).
