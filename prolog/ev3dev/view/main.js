@@ -104,7 +104,7 @@ function frame(next) {
   timeline.take(model);
   reasoning?.take(model);
   editor.take(model);
-  if (!timeline.past && !editor.open) {
+  if (!timeline.past && !editor.open && !reasoning?.kept) {
     for (const scene of scenes) scene.take(model, came);
     world.take(model, came, interval);
   }

@@ -3,7 +3,7 @@
 // its row. On the world each attempt that failed has a cross with its number.
 
 import { stroke, trace } from './canvas.js';
-import { $, attribute, clock, el, goTo, icon, notice, num, pressed, text, toggle, upper, within } from './dom.js';
+import { $, attribute, clock, download, el, goTo, icon, notice, num, pressed, text, toggle, upper, within } from './dom.js';
 import { TURN } from './things.js';
 
 const ROW = 26;
@@ -15,6 +15,9 @@ const MARKS = {
   '+': ['✓', 'true'], '-': ['✗', 'false'], '?': ['◆', 'choice'], '*': ['●', 'running'], '!': ['!', 'cut'], ' ': ['⋯', 'same'],
 };
 const STEPS = { Row: () => true, Branch: (row) => row.way, Move: (row) => row.effect };
+const KIND = 'ev3dev reasoning';
+/** The rows of a picture for a slide. */
+const MOST_PICTURED = 200;
 const SENSED = /^us_dist_cm\((in\d),([\d.]+)\)$/;
 
 export class Reasoning {
@@ -35,8 +38,13 @@ export class Reasoning {
     this.steps = Object.keys(STEPS).map((by) => el('button', { onclick: () => this.stepBy(by) }, by));
     const back = tool('One step back', 'play', () => this.step(-1));
     back.classList.add('back');
+    this.file = el('input', { type: 'file', accept: '.json', hidden: true, onchange: () => this.read() });
     $('reasoning').append(
-      el('header', {}, el('h2', { id: 'reasoning-title' }, 'Reasoning'), this.title, el('div', { class: 'actions' }, tool('Close the reasoning', 'close', () => this.turn(false)))),
+      el('header', {}, el('h2', { id: 'reasoning-title' }, 'Reasoning'), this.title, el('div', { class: 'actions' },
+        el('button', { class: 'tool', title: 'Picture of the rows and the world, as SVG', onclick: () => this.picture() }, 'SVG'),
+        el('button', { class: 'tool', title: 'Save program and record as a file', onclick: () => this.save() }, 'Save'),
+        el('button', { class: 'tool', title: 'Open such a file; nothing runs', onclick: () => this.file.click() }, 'Open'),
+        tool('Close the reasoning', 'close', () => this.turn(false))), this.file),
       this.empty, this.list,
       el('footer', {}, back, tool('One step forward', 'play', () => this.step(1)), el('div', { class: 'segments', role: 'group', 'aria-label': 'Step by' }, ...this.steps), this.detail),
       this.why,
@@ -57,11 +65,12 @@ export class Reasoning {
   }
 
   clear() {
-    Object.assign(this, { rows: [], visible: [], moments: [], turned: new Set(), at: null, asked: '', waits: false, old: false, head: null, coming: null });
+    Object.assign(this, { rows: [], visible: [], moments: [], turned: new Set(), at: null, asked: '', waits: false, old: false, head: null, coming: null, kept: null });
   }
 
   turn(open) {
     this.open = open;
+    if (this.kept) this.clear();
     $('reasoning').hidden = !open;
     toggle(document.body, 'thinking', open);
     attribute($('reasoning-open'), 'aria-expanded', open);
@@ -82,7 +91,7 @@ export class Reasoning {
       this.waits = false;
       this.asked = '';
     }
-    if (!this.open) return;
+    if (!this.open || this.kept) return;
     const [record, events] = model.record ?? [];
     const key = `${record} ${events}`;
     const running = model.frame.program.state === 'running';
@@ -111,11 +120,12 @@ export class Reasoning {
     return true;
   }
 
-  fill() {
-    const { head, texts, moments, rows } = this.coming;
-    const again = head.record === this.head?.record;
+  /** With `kept`, what was saved of another run: its world, too. */
+  fill(kept = null) {
+    const { head, texts, moments, rows } = this.raw = kept?.raw ?? this.coming;
+    const again = !kept && head.record === this.head?.record;
     const atEnd = this.list.scrollTop + this.list.clientHeight >= this.list.scrollHeight - ROW;
-    Object.assign(this, { head, moments, waits: false, coming: null });
+    Object.assign(this, { head, moments, kept, waits: false, coming: null });
     if (!again) Object.assign(this, { turned: new Set(), at: null });
     const ways = [];
     let read = null;
@@ -141,8 +151,9 @@ export class Reasoning {
       return [{ i, name: row.name, pose: this.pose(row.to), read: this.rows[end].read }];
     }).filter(({ pose }) => pose);
     const last = this.time({ from: moments.length });
-    this.old = last > this.model.time + 0.01;
+    this.old = Boolean(kept) || last > this.model.time + 0.01;
     this.model.recorded = this.old ? null : moments[0]?.[0] ?? null;
+    if (kept) this.empty.hidden = true;
     const [first] = this.rows;
     const moves = this.rows.filter(({ effect }) => effect).length;
     const ends = { '+': 'true', '-': 'false', '*': 'running' }[first?.mark] ?? '';
@@ -259,7 +270,7 @@ export class Reasoning {
       this.moving = true;
       goTo(this.time(row));
       this.moving = false;
-    }
+    } else if (this.kept) this.shown();
     const top = (upper(this.visible, i) - 1) * ROW;
     const { scrollTop, clientHeight } = this.list;
     if (top < scrollTop || top + ROW > scrollTop + clientHeight) this.list.scrollTop = top - clientHeight / 3;
@@ -327,16 +338,23 @@ export class Reasoning {
 
   /** A moment of the run, with the robot where it was by the record. */
   placed(moment) {
-    const row = this.rows[this.at];
-    const pose = this.open && !this.old && row && this.pose(row.from);
-    if (!pose || !moment.frame?.robot?.true || Math.abs(moment.time - this.time(row)) > 0.03) return moment;
+    const row = this.rows[this.at] ?? (this.kept && this.rows[0]);
+    const pose = this.open && row && this.pose(row.from);
+    if (this.kept && this.open) {
+      const { world, spec, name } = this.kept;
+      return Object.assign(Object.create(moment), {
+        world, spec, name, path: null, grid: null, map: null, belief: null, localized: null, until: 0,
+        frame: { ...moment.frame, robot: pose && { true: pose, believed: null, hits: 0 }, see: [], others: [], things: [], ports: [] },
+      });
+    }
+    if (this.old || !pose || !moment.frame?.robot?.true || Math.abs(moment.time - this.time(row)) > 0.03) return moment;
     const placed = Object.create(moment);
     placed.frame = { ...moment.frame, robot: { ...moment.frame.robot, true: pose } };
     return placed;
   }
 
   paint(c, picture) {
-    if (!this.open || this.old || !this.head) return;
+    if (!this.open || (this.old && !this.kept) || !this.head) return;
     const { dot, paint, model } = picture;
     const ray = ({ port, far, from }, color) => {
       const [at, sensor] = [this.pose(from), model.spec?.sensors?.find((each) => each.port === port)];
@@ -372,8 +390,53 @@ export class Reasoning {
     if (row?.read && Math.abs(this.time(row) - this.time(row.read)) < 0.05) ray(row.read, paint.blue);
   }
 
+  // ---------------- files
+
+  save() {
+    const { world, spec, name } = this.kept ?? this.model;
+    if (this.rows.length) download('reasoning.json', JSON.stringify({ kind: KIND, raw: this.raw, world, spec, name }), 'application/json');
+  }
+
+  async read() {
+    const [file] = this.file.files;
+    this.file.value = '';
+    try {
+      const kept = JSON.parse(await file.text());
+      if (kept.kind !== KIND) throw new Error(kept.kind);
+      this.fill(kept);
+      text(this.title, `${file.name}: ${this.title.textContent}`);
+    } catch {
+      notice(`${file.name} is no file that Save has written here.`, { bad: true, seconds: 6 });
+    }
+  }
+
+  picture() {
+    if (!this.rows.length) return;
+    const safe = (words) => words.replace(/[&<>]/g, (sign) => `&#${sign.charCodeAt(0)};`);
+    const part = (name, words) => (words ? `<tspan class="${name}" dx="7">${safe(words)}</tspan>` : '');
+    const rows = this.visible.slice(0, MOST_PICTURED);
+    const canvas = $('world');
+    const wide = 420;
+    const high = Math.round((wide * canvas.height) / canvas.width);
+    const lines = rows.map((i, n) => {
+      const row = this.rows[i];
+      const [glyph, kind] = MARKS[row.mark];
+      return `<text class="${kind}${row.way ? ' way' : ''}" y="${24 + 20 * n}"><tspan class="time" x="52">${clock(this.time(row))}</tspan>`
+        + `<tspan x="${66 + 16 * row.depth}">${row.way ? '╰' : glyph}</tspan><tspan class="goal" dx="7">${safe(row.words)}</tspan>`
+        + `${part('plain', row.plain)}${part('plain', row.place)}${part('fault', row.fault)}${part('effect', row.effect)}</text>`;
+    });
+    download('reasoning.svg', `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${760 + wide} ${Math.max(high, 20 * rows.length) + 24}">
+<style>text{font:13px sans-serif;fill:#1c1e22}.time{text-anchor:end;fill:#5b6068}.goal{font-family:monospace}.plain{fill:#5b6068;font-size:12px}
+.fault,.false:not(.way) .goal,.false{fill:#c8201a}.way{fill:#8a5a00}.way .goal{font-weight:700;fill:#1c1e22}.true{fill:#1a7f43}.true .goal{fill:#1c1e22}.effect{fill:#0b62c4}</style>
+<rect width="100%" height="100%" fill="#fff"/>
+${lines.join('\n')}
+<image x="750" y="8" width="${wide}" height="${high}" href="${canvas.toDataURL()}"/>
+</svg>
+`, 'image/svg+xml');
+  }
+
   get state() {
-    return { open: this.open, rows: this.rows.length, shown: this.room.children.length, at: this.at, words: this.rows[this.at]?.words ?? null, waits: this.waits, old: this.old, crosses: (this.crosses ?? []).map(({ name, pose }) => [name, ...pose]) };
+    return { open: this.open, kept: Boolean(this.kept), rows: this.rows.length, shown: this.room.children.length, at: this.at, words: this.rows[this.at]?.words ?? null, waits: this.waits, old: this.old, crosses: (this.crosses ?? []).map(({ name, pose }) => [name, ...pose]) };
   }
 }
 
