@@ -1,6 +1,6 @@
 //! From terms to the facts of worlds and robots, for the simulator and for roadmaps.
 use crate::glue::call::Call;
-use crate::glue::error::{wrong_because, wrong_type};
+use crate::glue::error::{wrong_because, wrong_type, wrong_type_because};
 use crate::glue::places::places;
 use crate::glue::terms::Ask as _;
 use ev3_sim::facts::{Fact, Kind, Subject, Value};
@@ -21,7 +21,13 @@ pub(crate) fn fact<'a, C: QueryableContextType>(
         return Ok(None);
     };
     let kinds = arguments.iter().zip(form.arguments);
-    let values = kinds.map(|(argument, (_, kind))| value(call, *kind, argument));
+    let values = kinds.map(|(argument, (name, kind))| match kind {
+        Kind::Number if matches!(argument.term_type(), TermType::Nil | TermType::ListPair) => {
+            let reason = format!("{name} must be a number, not a list: {form}");
+            wrong_type_because(call, "number", argument, &reason)
+        }
+        _ => value(call, *kind, argument),
+    });
     let values = values.collect::<PrologResult<Vec<_>>>()?;
     let read = Fact::of(&name, &values).or_else(|error| {
         wrong_because(call, "possible_geometry", &arguments[0], &error.to_string())

@@ -88,13 +88,23 @@ pub(crate) fn wrong_type<T, C: Prolog>(
     expected: &str,
     term: &Term,
 ) -> PrologResult<T> {
+    wrong_type_because(call, expected, term, "")
+}
+
+/// The same, with the reason as the message.
+pub(crate) fn wrong_type_because<T, C: Prolog>(
+    call: &Origin<C>,
+    expected: &str,
+    term: &Term,
+    reason: &str,
+) -> PrologResult<T> {
     let context = call.context;
     let formal = if term.is_var() {
         term! {context: instantiation_error}?
     } else {
         term! {context: type_error(#atomable(expected), #term)}?
     };
-    throw(call, &formal, "")
+    throw(call, &formal, reason)
 }
 
 /// Raises `domain_error(Domain, Term)`.

@@ -203,6 +203,21 @@ test(variable) :-
     complaint("wall(0, 0, X, 1).\n", [], Formal, Message),
     nonvar(Formal),
     says(Message, 'FILE:1:0: ').
+test(options_in_the_place_of_a_number,
+     [ forall(member(Fact-Words,
+                     [ "box(9, 9, 2, 2, [mass(1)])"-
+                       'Heading must be a number, not a list: \
+box(X, Y, Width, Depth, Heading, Options)',
+                       "circle(9, 9, [mass(1)])"-
+                       'Radius must be a number, not a list: \
+circle(X, Y, Radius, Options)',
+                       "wall(0, 9, 5, 9, [color(red)])"-
+                       'Thickness must be a number, not a list: \
+wall(X1, Y1, X2, Y2, Thickness)' ])) ]) :-
+    string_concat(Fact, ".\n", Text),
+    complaint(Text, [], Formal, Message),
+    Formal = type_error(number, [_|_]),
+    says(Message, Words).
 test(a_directive_is_not_run) :-
     nb_setval(ran, no),
     complaint(":- nb_setval(ran, yes).\n", [], Formal, _),

@@ -121,6 +121,14 @@ pub struct Form {
     pub least: usize,
 }
 
+/// With all its arguments.
+impl fmt::Display for Form {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names: Vec<_> = self.arguments.iter().map(|(name, _)| *name).collect();
+        write!(f, "{}({})", self.name, names.join(", "))
+    }
+}
+
 impl Form {
     /// A form with all arguments.
     pub(crate) const fn new(
