@@ -19,7 +19,8 @@ main() {
     install -D -m 644 "$root/target/dist/armel/ev3dev.so" "$pack/native/armel/ev3dev.so"
     on_brick "$root/tests/brick/smoke.pl"
     on_brick "$root/tests/brick/example.pl"
-    echo "2 passed, 0 failed"
+    on_brick "$root/tests/brick/things.pl"
+    echo "3 passed, 0 failed"
 }
 
 on_brick() {

@@ -18,6 +18,7 @@ const { prolog } = await startProlog({
     ...pack(),
     ...folder(path.join(home, 'examples'), '/pack/examples'),
     ...folder(path.join(home, 'tests/support/reasoning'), '/pack/tests/support/reasoning'),
+    ...folder(path.join(home, 'tests/support/things'), '/pack/tests/support/things'),
     '/pack/tools/demo.pl': fs.readFileSync(path.join(home, 'tools/demo.pl')),
     '/pack/run.pl': fs.readFileSync(path.join(home, 'tests/playground/run.pl')),
   },

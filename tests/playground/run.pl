@@ -7,7 +7,8 @@
 
 %!  played(+Example, +Seconds)
 %
-%   Worlds, goals, robots and hands are those of tools/demo.pl, which is module demo_script.
+%   Worlds, goals, robots and hands are those of tools/demo.pl, which is module demo_script; `crowd`
+%   is a robot among things that it pushes.
 
 %
 %   Or the random programs up to a seed: the recorder sees what a meta-interpreter sees.
@@ -26,6 +27,11 @@ played(random_programs, Last) :-
     % A seed makes other programs in another build of Prolog.
     format("200 programs: ~w, differ: ~w~n", [Enough, Differ]),
     ( Enough-Differ == true-[] -> true ; throw(differ(Differ)) ).
+played(crowd, _) :-
+    !,
+    load_files('tests/support/things/crowd.pl', []),
+    crowd_digest(Digest, Expected),
+    format("~d of ~d~n", [Digest, Expected]).
 played(Example, Seconds) :-
     (   demo_script:demo(Example, World, Goal) -> true ; World = room, Goal = start ),
     (   demo_script:robot(Example, Robot) -> true ; Robot = default ),

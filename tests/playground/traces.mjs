@@ -15,6 +15,7 @@ import { home } from '../../playground/parts.js';
     themselves, which are not the same in every C library, and brick_check, which prints the version
     of Prolog. */
 const EXAMPLES = {
+  crowd: 18,
   obstacle_avoidance: 60, grid_navigation: 60, braitenberg: 60, line_following: 30, square: 30, slalom: 30,
   remote_control: 10, thermometer: 10, traffic_light: 60, lost: 30, grid_lost: 30, explore_room: 30,
   golog_elevator: 40, golog_rescue: 30, golog_wumpus: 30,

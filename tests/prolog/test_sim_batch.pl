@@ -28,6 +28,8 @@ program(Out) :-
                     "drawn(N) :- random_between(1, 1000, N).",
                     "drawn(_, N) :- random_between(1, 1000000000, N).",
                     "driven(X-Y) :- for_seconds(5, (repeat, motors_run([run(outB, 40), run(outC, 30)]), wait(1), fail)), sim_pose(X, Y, _).",
+                    ":- use_module(library(ev3dev/gripper)).",
+                    "carried([X, Y]) :- set_robot(5.6, 10.6, outB, outC), set_gripper(outA, []), release, go_cm(20, 9), grip, sim_held(cargo), go_cm(20, 20), release, go_cm(30, -20), turn(30, 40), go_cm(30, 60), sim_thing(cargo, X, Y, _).",
                     "again(Ns) :- sim_time(T), assertz(before(T)), flag(n, N, N+1), nb_getval_0(V), findall(M, before(M), Ms), length(Ms, L), Ns = [N, V, L].",
                     "nb_getval_0(V) :- ( nb_current(here, V) -> true ; V = none ), nb_setval(here, seen).",
                     "fails(_) :- fail.",
@@ -80,6 +82,16 @@ test(the_same_with_any_number_of_workers) :-
     One == Four,
     findall(Place, member(_-Place, One), Places),
     sort(Places, [_, _|_]).
+test(things_live_in_each_run, true(One-Kinds == Four-6)) :-
+    numlist(1, 6, Seeds),
+    Options = [ robot(carrier), noise(true),
+                world([box(0, 20, 6, 6, 0, [mass(0.05), name(cargo)]),
+                       circle(12, 60, 3, [mass(0.05), rolls(true)])]) ],
+    with_program(File, ( scores(File, carried, Seeds, [workers(1)|Options], One),
+                         scores(File, carried, Seeds, [workers(4)|Options], Four) )),
+    findall(Y, ( member(_-[_, Y], One), Y > 25 ), Places),
+    sort(Places, Different),
+    length(Different, Kinds).
 test(the_same_as_in_a_simulation_here, Score == Here) :-
     with_program(File, ( scores(File, driven, [7], [world(lights), noise(true)], [7-Score]),
                            load_files(batch_here:File, []) )),

@@ -83,6 +83,22 @@ test(as_in_one_process, Ended-Text-Pose == exit(0)-Printed-[X, Y, Heading]) :-
                  in_room(( load_files(fenced_here:File, [silent(true)]),
                            with_output_to(string(Printed), fenced_here:drives),
                            sim_pose(X, Y, Heading) ))).
+test(things_are_pushed_and_held_as_in_one_process, true(Y-There == 40-Here)) :-
+    Lines = [":- use_module(library(ev3dev/gripper)).",
+             "main :- carries.",
+             "carries :- set_robot(5.6, 10.6, outB, outC), set_gripper(outA, []),",
+             "    release, go_cm(20, 9), grip, gripping, go_cm(20, 20), release."],
+    World = [ box(0, 20, 6, 6, 0, [mass(0.05), name(cargo)]) ],
+    Options = [clock(virtual), robot(carrier), noise(true), seed(4)],
+    Cargo = sim_thing(cargo, X1, Y1, Heading1),
+    There = [X1, Y1, Heading1],
+    with_program(Lines, File,
+                 ( with_sim(World, ( sim_fenced(File, exit(0), []), Cargo ), Options),
+                   with_sim(World, ( load_files(fenced_things:File, [silent(true)]),
+                                     fenced_things:carries,
+                                     sim_thing(cargo, X2, Y2, Heading2) ), Options) )),
+    Here = [X2, Y2, Heading2],
+    Y is round(Y1).
 test(both_clocks_go_on_together, Text-Seconds == "[12.5,20.0]\n"-20.0) :-
     with_program(["main :- ev3_time(A), wait(7.5), ev3_time(B), print([A, B]), nl."],
                  File,

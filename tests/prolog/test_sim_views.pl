@@ -1,5 +1,6 @@
 :- use_module('../support/child').
 :- use_module('../support/dev').
+:- use_module('../support/things/crowd').
 :- use_module('../support/trees').
 :- use_module(library(sgml)).
 
@@ -197,6 +198,8 @@ test(things_without_a_name_have_their_number,
 test(what_stands_fast_is_no_thing, Things == []) :-
     with_sim([box(50, 50, 6, 6, 0, [name(post), color(red)])],
              sim_things(Things)).
+test(a_crowd_is_pushed_to_the_last_bit, true(Digest == Expected)) :-
+    crowd_digest(Digest, Expected).
 test(options_are_checked, error(domain_error(thing_option, weight(1)), _)) :-
     with_sim([box(50, 50, 6, 6, 0, [weight(1)])], true).
 test(too_light, error(domain_error(possible_geometry, _), _)) :-
