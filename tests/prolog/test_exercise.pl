@@ -387,11 +387,11 @@ test(no_folder_for_its_reports, error(_)) :-
     with_folder(( folder(Folder), atom_concat(Folder, '/file', File), program(honest, Honest),
                   setup_call_cleanup(open(File, write, S), true, close(S)),
                   mark_files([Honest], [out(File)], _) )).
-%   Whatever a program breaks, the others get their marks. Without an enclosure `../..` is the
-%   folder of this test, unless Prolog heeds no tmp_dir, as 7.2.3: then nothing is removed there.
+%   Whatever a program breaks, the others get their marks. Without an enclosure `../..` is a
+%   folder of the marking, but /tmp where Prolog heeds no tmp_dir, as 7.2.3: nothing is removed there.
 test(what_one_breaks_is_its_own_loss,
      [ forall(( member(Enclosed-All, [true-"rm -rf ../../*",
-                                      false-"[ ! -e ../../breaks.pl ] || rm -rf ../../*"]),
+                                      false-"[ ! -e ../../batch.pl ] || rm -rf ../../*"]),
                 member(Command, ["rm -rf ../output ../own", "rm ../output; mkfifo ../output",
                                  All, "chmod 000 . ..", "kill -9 -1"]) )),
        condition(( Enclosed == true -> can_enclose ; Command \== "kill -9 -1" )),
