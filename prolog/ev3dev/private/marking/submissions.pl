@@ -118,7 +118,7 @@ handed(File, Index, _, _, handed(Index, Name, [], Items)) :-
 handed(Folder, _, Goal, Links, handed(named-Place, Name, Keys, Items)) :-
     Goal \== none,
     absolute_file_name(Folder, Absolute0),
-    (   atom_concat(Absolute, /, Absolute0)     % SWI-Prolog 7.2.3 leaves it there
+    (   atom_concat(Absolute, /, Absolute0)   % kept by SWI-Prolog 7.2.3
     ->  true
     ;   Absolute = Absolute0
     ),
