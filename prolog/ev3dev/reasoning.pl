@@ -62,6 +62,7 @@ also by thinking(brick) of sim_start/2. docs/reasoning.md is a lesson with it.
 %   @error instantiation_error if Goal is unbound
 %   @error type_error(callable, Goal)
 %   @error domain_error(reasoning_option, Option)
+%   @error permission_error(record, goal, Goal) while another thread records
 %   @error permission_error(access, private_procedure, Name/Arity) if the flag
 %          `protect_static_code` hides the clauses of the program
 

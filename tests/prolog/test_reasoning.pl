@@ -134,6 +134,22 @@ test(dynamic_predicates_grammars_and_modules_do_what_they_do) :-
     reasoning(twice(true)),
     reasoning(wraps),
     \+ reasoning(odd).
+test(two_threads_do_not_record_at_once,
+     error(permission_error(record, goal, _), _)) :-
+    thread_self(Me),
+    setup_call_cleanup(
+        thread_create(reasoning(user:( thread_send_message(Me, begun),
+                                       thread_get_message(end) )),
+                      Thread),
+        ( thread_get_message(begun),
+          reasoning(one) ),
+        ( thread_send_message(Thread, end),
+          thread_join(Thread, Status) )),
+    Status == true.
+test(the_next_thread_may_record_when_one_has_ended, true(Status == true)) :-
+    thread_create(reasoning(one), Thread),
+    thread_join(Thread, Status),
+    reasoning(one).
 test(a_large_term_keeps_its_beginning, true(Bytes < 3000000)) :-
     reasoning(long(800, _)),
     aggregate_all(sum(Size),

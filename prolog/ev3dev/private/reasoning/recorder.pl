@@ -20,6 +20,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(instrument, [instrument/0, translate/4]).
+:- use_module('../errors/errors', [throw_error/3]).
 :- use_module('../errors/frames', [in_pack/3]).
 :- use_module('../native/native',
               [commands_/1, sim_active_/0, sim_pose_/3, sim_time_/1]).
@@ -54,12 +55,14 @@ it here. Other threads do not have the variable, so they are not recorded.
     event/5,
     moment/4,
     recorded_goal/1,
-    lost/1.
+    lost/1,
+    records/1.                          % Thread
 :- volatile
     event/5,
     moment/4,
     recorded_goal/1,
-    lost/1.
+    lost/1,
+    records/1.
 
 %   No node is deeper: a program that calls itself without end needs its
 %   memory. What is below runs, and is not recorded.
@@ -74,8 +77,17 @@ deepest(30000).
 %   Call Goal, and note what happens in about that many Bytes. The
 %   others are the record: events.pl explains them. Of a call Node is the
 %   parent. Count events have been forgotten.
+%
+%   @error permission_error(record, goal, Goal) while another thread records
 
 record(Goal, Bytes) :-
+    with_mutex(ev3dev_reasoning, begin(Thread)),
+    (   thread_self(Thread)
+    ->  true
+    ;   format(atom(Why), 'thread ~w records already: one goal at a time',
+               [Thread]),
+        throw_error(permission_error(record, goal, Goal), reasoning/1, Why)
+    ),
     instrument,
     retractall(event(_, _, _Node, _, _)),
     retractall(moment(_, _Time, _, _)),
@@ -99,7 +111,19 @@ record(Goal, Bytes) :-
         How,
         ended(How)).
 
+%   Thread records from now on: this one, unless another one does.
+
+begin(Thread) :-
+    (   records(Thread),
+        catch(thread_property(Thread, status(running)), error(_, _), fail)
+    ->  true
+    ;   retractall(records(_)),
+        thread_self(Thread),
+        assertz(records(Thread))
+    ).
+
 ended(How) :-
+    retractall(records(_)),
     (   memberchk(How, [exception(Ball), external_exception(Ball)])
     ->  note(caught, 0, Ball)
     ;   true
