@@ -80,6 +80,9 @@ demo(brick_check, room, brick_check:report).
 demo(rules_light_seeker, lights, start).
 demo(rules_line_follower, line, start).
 demo(rules_sumo, sumo, start).
+demo(clear_the_ring, cans, start).
+demo(sort_parcels, parcels, start).
+demo(goal, soccer, start).
 demo(rules_traffic_light, [ambient(20)], start).
 demo(plnxt_program, [ bounds(0, 0, 150, 150), start(40, 40, 30),
                       patch(black, [100-0, 150-0, 150-150, 100-150]) ],
@@ -87,6 +90,8 @@ demo(plnxt_program, [ bounds(0, 0, 150, 150), start(40, 40, 30),
 demo(rules_processes, [wall(-50, 150, 50, 150)], start).
 
 robot(rules_wander, touch).
+robot(sort_parcels, carrier).
+robot(goal, carrier).
 
 %   Files that do nothing by themselves, and a program that uses them.
 

@@ -52,7 +52,7 @@ with_program(Lines, File, Goal) :-
 refused("frob", "there is no command frob; there are: view, sim, run, ").
 refused("run", "run needs a program: ").
 refused("try line", "try needs a PROGRAM").
-refused("sim", "sim needs a world: convoy, delivery, dohyo, ").
+refused("sim", "sim needs a world: bar, cans, convoy, ").
 refused("run a.pl b.pl", "run does not take b.pl").
 refused("devices a.pl", "devices does not take a.pl").
 refused("run a.pl --world", "--world needs a world").
@@ -66,7 +66,7 @@ refused("jog --loud", "jog has no option --loud").
 refused("run nothing_such.pl --world room",
         "there is no program nothing_such.pl; there are: backtracking, braitenberg, ").
 refused("run square --world moon",
-        "there is no world moon; there are: convoy, delivery, ").
+        "there is no world moon; there are: bar, cans, ").
 refused("run square --world room --robot tuch",
         "there is no robot tuch; there are: carrier, default, touch").
 refused("run square --world room --clock fast",

@@ -840,7 +840,7 @@ group('other worlds and robots', [`working_directory(_, '${folder}')`, ...ROOM],
 
   test('are listed: those of the pack and files of facts, with what is in use', async () => {
     const [worlds, now] = await choose('world');
-    assert.deepEqual(worlds.slice(0, 3), ['blocked.pl', 'mine.pl', 'convoy']);
+    assert.deepEqual(worlds.slice(0, 3), ['blocked.pl', 'mine.pl', 'bar']);
     assert.equal(now, 'room');
     const [robots, robot] = await choose('robot');
     assert.deepEqual(robots, ['carrier', 'default', 'touch']);
