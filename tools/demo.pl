@@ -59,6 +59,7 @@ start_view :-
 
 demo(obstacle_avoidance, room, start).
 demo(grid_navigation, grid, start).
+demo(backtracking, room, \+ start).           % it shows how it fails
 demo(braitenberg, lights, vehicle(taste)).
 demo(line_following, line, start).
 demo(square, [start(0, 0, 0)], start).

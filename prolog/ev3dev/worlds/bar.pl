@@ -6,5 +6,6 @@ bounds(-60, -100, 60, 200).
 patch(red, [-40-80, 40-80, 40-160, -40-160]).
 
 box(0, 0, 4, 60, 0, [mass(0.2), color(blue), name(bar)]).
+start(0, -60, 0).                        % of a robot alone
 start(back, 0, -60, 0).
 start(front, 0, 60, 180).
