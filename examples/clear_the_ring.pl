@@ -13,8 +13,8 @@
 edge :: white(_) ~> go_cm(40, -30).
 
 % Something is near: it is a can, as the ring is free of other things. The
-% robot has turned to the right; it hears the can 15 degrees before it looks at
-% its middle.
+% robot has turned to the right; it hears the can 15 degrees before it looks
+% at its middle.
 push :: us_dist_cm(_, D), D < 60 ~> turn(20, 14), go_cm(40, 100).
 
 % Nothing is near: the robot looks around, and then from another place.

@@ -24,8 +24,8 @@ start :-
     go_cm(30, -20).
 
 %   Look around, Angle degrees to both sides, and face what is nearer than
-%   Limit. The robot sees the ball from several headings; it lies in the middle
-%   of these.
+%   Limit. The robot sees the ball from several headings; it lies in the
+%   middle of these.
 look(Angle, Limit, Cm) :-
     pose(_, _, Ahead),
     From is Ahead-Angle,

@@ -26,9 +26,9 @@ station(2, 135, -45).                   % blue
 
 % The most important rule comes first.
 carry :: gripping, parcel(Color), station(Color, X, Y) ~> deliver(X, Y).
-leave :: parcel(_), pose(_, Y, _), Y < 0               ~> go_cm(30, -25).
-take  :: parcel(_)                                     ~> go_cm(10, 2.2), grip.
-fetch :: shelf(X, Y), \+ visited(X, Y)                 ~> fetch(X, Y).
+leave :: parcel(_), pose(_, Y, _), Y < 0 ~> go_cm(30, -25).
+take  :: parcel(_) ~> go_cm(10, 2.2), grip.
+fetch :: shelf(X, Y), \+ visited(X, Y) ~> fetch(X, Y).
 
 parcel(Color) :-
     col_color(in3, Color),

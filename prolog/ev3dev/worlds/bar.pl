@@ -1,6 +1,6 @@
-% A bar of 60 cm, too long for one robot. Two robots `carrier` look at its ends.
-% They grip it, and carry it onto the red floor: one drives ahead, the other
-% one back.
+% A bar of 60 cm, too long for one robot. Two robots `carrier` look at its
+% ends. They grip it, and carry it onto the red floor: one drives ahead, the
+% other one back.
 
 bounds(-60, -100, 60, 200).
 patch(red, [-40-80, 40-80, 40-160, -40-160]).
