@@ -3,6 +3,7 @@
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/grid)).
+:- use_module(library(ev3dev/gripper)).
 :- use_module(library(ev3dev/roadmap)).
 :- use_module(library(ev3dev/rules)).
 :- use_module(library(ev3dev/colors)).
