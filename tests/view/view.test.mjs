@@ -358,8 +358,12 @@ group('what lies over the world', ROOM, '', (it) => {
   }
 
   test('goes away by a click beside it', async () => {
+    await it.page.bringToFront();       // what lies behind a page draws nothing
     const { robot } = await state(it.page);
-    await it.page.mouse.click(...await pixel(it.page, ...robot.true));
+    await until(async () => {           // it may not have drawn the robot there yet
+      await it.page.mouse.click(...await pixel(it.page, ...robot.true));
+      return (await state(it.page)).selected === 'robot';
+    }, 'the robot to be selected');
     await it.page.click('#drive');
     await shows(it.page, (s) => s.selected === 'robot' && s.driving, 'both');
     await it.page.mouse.click(...await pixel(it.page, 150, 200));
