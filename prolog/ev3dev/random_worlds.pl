@@ -33,6 +33,11 @@ exit, and a track has no bend too narrow for a robot.
 
 A Number of something is a whole number, or `From-To`, of which chance takes
 one.
+
+Rooms and grids may have things that robots push, see docs/worlds.md: cubes of
+5 cm and 50 g, which are called `thing1`, `thing2` and so on, and whose colors
+take turns: red, yellow, green and blue. A robot can drive to each of them
+without moving another.
 */
 
 %!  random_room(+Seed, +Options, -World) is det.
@@ -45,6 +50,8 @@ one.
 %       Default is 3-5.
 %     - pillars(Number)
 %       Default is 0-2.
+%     - things(Number)
+%       Default is 0. A robot can push a thing from each side.
 %     - start(X, Y, Heading)
 %       Default is start(40, 40, 40).
 %     - free(X, Y, Radius)
@@ -63,12 +70,13 @@ random_room(Seed, Options, World) :-
     ),
     findall(free(X, Y, Radius), member(free(X, Y, Radius), Options), Frees),
     subtract(Options, [start(_, _, _)|Frees], Others),
-    must_be_options(random_room_option, [size, boxes, pillars, start, free],
-                    Others),
+    must_be_options(random_room_option,
+                    [size, boxes, pillars, things, start, free], Others),
     option(size(Width-Depth), Others, 300-250),
     must_be(positive_integer, Width),
     must_be(positive_integer, Depth),
-    counts([boxes(3-5), pillars(0-2)], Others, [Boxes, Pillars]),
+    counts([boxes(3-5), pillars(0-2), things(0)], Others,
+           [Boxes, Pillars, Cubes]),
     chance(Seed, Chance),
     between(1, 1000, _),
     chosen(Boxes, Chance, BoxCount),
@@ -76,16 +84,25 @@ random_room(Seed, Options, World) :-
     placed(BoxCount, box, Chance, Width-Depth, [free(X0, Y0, 25)|Frees], [],
            Taken),
     placed(PillarCount, pillar, Chance, Width-Depth,
-           [free(X0, Y0, 25)|Frees], Taken, Things),
-    findall(Fact, member(Fact-_, Things), Facts0),
-    reverse(Facts0, Facts),
+           [free(X0, Y0, 25)|Frees], Taken, Standing),
+    chosen_things(Cubes, Chance, CubeCount),
+    placed(CubeCount, cube, Chance, Width-Depth,
+           [free(X0, Y0, 25)|Frees], Standing, All),
+    findall(Fact, member(Fact-_, All), Facts0),
+    reverse(Facts0, Facts1),
+    named_things(Facts1, 1, Facts),
     World = [ bounds(0, 0, Width, Depth), start(X0, Y0, Heading) | Facts ],
     \+ ( member(free(X, Y, _), Frees),
          \+ roadmap_path(World, X0-Y0, X-Y, _, []) ),
+    \+ ( member(thing(X, Y, _), Facts1),
+         \+ ( beside([X, Y], _, DX-DY),
+              X1 is X+16*DX,
+              Y1 is Y+16*DY,
+              roadmap_path(World, X0-Y0, X1-Y1, _, []) ) ),
     !.
 random_room(_, _, _) :-
     throw_error(resource_error(room), _,
-                'it is too full: less boxes, or less of it free').
+                'it is too full: less boxes or things, or less of it free').
 
 %   Each has room around it for a robot: 28 cm. A place that does not fit is
 %   drawn again, two hundred times.
@@ -115,6 +132,25 @@ thing(pillar, Chance, Size, circle(X, Y, Radius), circle(X, Y, Radius)) :-
     uniform(Chance, 5, 12, Radius),
     middle(Chance, Size, Radius, X-Y).
 
+thing(cube, Chance, Size, thing(X, Y, Heading), circle(X, Y, Radius)) :-
+    Radius = 3.6,
+    middle(Chance, Size, Radius, X-Y),
+    uniform(Chance, -45, 45, Heading).
+
+%   thing(X, Y, Heading) becomes a fact of the world.
+
+named_things([], _, []).
+named_things([thing(X, Y, Heading)|Facts], Number, [Fact|Named]) :-
+    !,
+    Index is (Number-1) mod 4,
+    nth0(Index, [red, yellow, green, blue], Color),
+    atom_concat(thing, Number, Name),
+    Fact = box(X, Y, 5, 5, Heading, [mass(0.05), color(Color), name(Name)]),
+    Next is Number+1,
+    named_things(Facts, Next, Named).
+named_things([Fact|Facts], Number, [Fact|Named]) :-
+    named_things(Facts, Number, Named).
+
 middle(Chance, Width-Depth, Radius, X-Y) :-
     uniform(Chance, Radius+28, Width-Radius-28, X),
     uniform(Chance, Radius+28, Depth-Radius-28, Y).
@@ -132,19 +168,23 @@ nearer(X-Y, X1-Y1, Distance) :-
 %       Default is 8-8.
 %     - boxes(Number)
 %       Default is 8-12.
+%     - things(Number)
+%       Default is 0. Each stands in the middle of a cell of its own.
 %     - cell(Cm)
 %       Default is 20.
 %     - free(Cells)
-%       Cells, each [X, Y], in which there is no box. The robot's is free.
+%       Cells, each [X, Y], in which there is no box and no thing. The robot's
+%       is free.
 %
-%   @error resource_error(grid) if that many boxes leave no way between all
-%          other cells
+%   @error resource_error(grid) if that many boxes and things leave no way
+%          between all other cells
 %   @error domain_error(random_grid_option, Option)
 
 random_grid(Seed, Options, World) :-
-    must_be_options(random_grid_option, [size, boxes, cell, free], Options),
+    must_be_options(random_grid_option, [size, boxes, things, cell, free],
+                    Options),
     size(Options, 8-8, Columns, Rows),
-    counts([boxes(8-12)], Options, [Boxes]),
+    counts([boxes(8-12), things(0)], Options, [Boxes, Cubes]),
     number_option(cell(Cm), positive_number, Options, 20),
     option(free(Free), Options, []),
     chance(Seed, Chance),
@@ -154,9 +194,15 @@ random_grid(Seed, Options, World) :-
     chosen(Boxes, Chance, Count),
     shuffled(Places, Chance, Shuffled),
     length(Boxed, Count),
-    append(Boxed, _, Shuffled),
-    subtract(Cells, Boxed, Others),
+    append(Boxed, Rest, Shuffled),
+    chosen_things(Cubes, Chance, CubeCount),
+    length(Cubed, CubeCount),
+    append(Cubed, _, Rest),
+    subtract(Cells, Boxed, Unboxed),
+    subtract(Unboxed, Cubed, Others),
     hang_together([[0, 0]], Others),
+    \+ ( member(Cell, Cubed),
+         \+ ( beside(Cell, Beside, _), memberchk(Beside, Others) ) ),
     !,
     Right is Cm*Columns - Cm/2,
     Top is Cm*Rows - Cm/2,
@@ -167,10 +213,18 @@ random_grid(Seed, Options, World) :-
             ( member([Column, Row], Sorted),
               X is Cm*Column,
               Y is Cm*Row ),
-            Facts),
+            Facts0),
+    findall(thing(X, Y, 0),
+            ( member([Column, Row], Cubed),
+              X is Cm*Column,
+              Y is Cm*Row ),
+            Things0),
+    named_things(Things0, 1, Things),
+    append(Facts0, Things, Facts),
     World = [bounds(Low, Low, Right, Top), start(0, 0, 0)|Facts].
 random_grid(_, _, _) :-
-    throw_error(resource_error(grid), _, 'it is too full: less boxes').
+    throw_error(resource_error(grid), _,
+                'it is too full: less boxes, or less things').
 
 cells(Columns, Rows, Cells) :-
     findall([X, Y],
@@ -389,6 +443,14 @@ shuffled(List, Chance, [Member|Shuffled]) :-
 
 chosen(From-To, Chance, Number) :-
     whole(Chance, From, To, Number).
+
+%   Nothing is drawn if there are none, so that a world without things stays
+%   as it was before worlds had things.
+
+chosen_things(0-0, _, 0) :-
+    !.
+chosen_things(Range, Chance, Number) :-
+    chosen(Range, Chance, Number).
 
 % ---------------- ARGUMENTS
 

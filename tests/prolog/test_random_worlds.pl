@@ -55,25 +55,81 @@ test(grids, forall(case(20, Seed))) :-
     length(Boxes, Count),
     assertion(Count == 10),
     assertion(\+ memberchk(140-140, Boxes)),
-    findall(Cell, reached(Boxes, Cell), Reached0),
-    sort(Reached0, Reached),
+    reached(Boxes, 20, 140-140, Reached),
     length(Reached, Free),
     assertion(Free == 54),
     starts(World).
 
 %   By depth, not by breadth as the library does.
-reached(Boxes, Cell) :-
-    reached([0-0], Boxes, [], All),
-    member(Cell, All).
+reached(Taken, Cm, Most, Cells) :-
+    reached([0-0], Taken, Cm, Most, [], Cells0),
+    sort(Cells0, Cells).
 
-reached([], _, All, All).
-reached([X-Y|Cells], Boxes, Seen, All) :-
-    (   ( memberchk(X-Y, Seen) ; memberchk(X-Y, Boxes)
-        ; X < 0 ; Y < 0 ; X > 140 ; Y > 140 )
-    ->  reached(Cells, Boxes, Seen, All)
-    ;   A is X-20, B is X+20, C is Y-20, D is Y+20,
-        reached([A-Y, B-Y, X-C, X-D|Cells], Boxes, [X-Y|Seen], All)
+reached([], _, _, _, All, All).
+reached([X-Y|Cells], Taken, Cm, Right-Top, Seen, All) :-
+    (   ( memberchk(X-Y, Seen) ; memberchk(X-Y, Taken)
+        ; X < 0 ; Y < 0 ; X > Right ; Y > Top )
+    ->  reached(Cells, Taken, Cm, Right-Top, Seen, All)
+    ;   A is X-Cm, B is X+Cm, C is Y-Cm, D is Y+Cm,
+        reached([A-Y, B-Y, X-C, X-D|Cells], Taken, Cm, Right-Top, [X-Y|Seen], All)
     ).
+
+%   A robot can drive to each thing, and push it by 10 cm from each side.
+test(things_in_rooms, forall(case(10, Seed))) :-
+    random_room(Seed, [size(250-200), boxes(2), pillars(1), things(3-5), free(200, 150, 20)], World),
+    findall(Name-X/Y, member(box(X, Y, 5, 5, _, [mass(0.05), color(_), name(Name)]), World), Things),
+    length(Things, Count),
+    assertion(between(3, 5, Count)),
+    forall(( member(Name-X/Y, Things), member(DX-DY, [1-0, -1-0, 0-1, 0-(-1)]) ),
+           ( FromX is X-16*DX, FromY is Y-16*DY,
+             assertion(roadmap_path(World, 40-40, FromX-FromY, _, [])),
+             Heading is atan2(DX, DY)*180/pi,
+             with_sim(World, ( set_robot(5.6, 10.6, outB, outC),
+                               sim_place(FromX, FromY, Heading), go_cm(30, 15),
+                               sim_thing(Name, X1, Y1, _), sim_collisions([_]) ),
+                      [clock(virtual)]),
+             assertion(abs((X1-X)*DX + (Y1-Y)*DY - 10) < 1.5) )),
+    starts(World).
+test(things_in_grids, forall(case(10, Seed))) :-
+    random_grid(Seed, [size(5-4), boxes(2), things(6), cell(40), free([[4, 3]])], World),
+    findall(Name-Color/Cell,
+            ( member(box(X, Y, 5, 5, 0, [mass(0.05), color(Color), name(Name)]), World),
+              Column is X/40, Row is Y/40, Cell = [Column, Row] ),
+            Things),
+    findall(Name-Color, member(Name-Color/_, Things), Names),
+    assertion(Names == [ thing1-red, thing2-yellow, thing3-green, thing4-blue, thing5-red,
+                         thing6-yellow ]),
+    findall(Cell, member(_/Cell, Things), Cells),
+    assertion(\+ ( member(Cell, [[0, 0], [4, 3]]), memberchk(Cell, Cells) )),
+    findall(X-Y, ( member(Fact, World), place_of(Fact, X, Y) ), Taken),
+    sort(Taken, Different),
+    assertion(length(Different, 8)),
+    %  The others hang together, and each thing is beside one of them.
+    reached(Taken, 40, 160-120, Reached),
+    assertion(length(Reached, 12)),
+    forall(member([Column, Row], Cells),
+           ( X is 40*Column, Y is 40*Row,
+             assertion(( member(RX-RY, Reached), 40 =:= abs(RX-X)+abs(RY-Y) )) )),
+    starts(World).
+test(a_grid_of_things, Facts == 4) :-
+    random_grid(2, [size(5-3), boxes(0), things(4), cell(40),
+                    free([[1, 0], [2, 0], [3, 0], [4, 0], [0, 1], [1, 1], [2, 1], [3, 1], [4, 1]])],
+                World),
+    findall(X, member(box(X, 80, 5, 5, 0, _), World), Row),
+    length(Row, Facts).
+%   A thing is asked for, but no number is drawn for none.
+test(no_things_change_nothing, One-Two == Again-Again2) :-
+    random_room(9, [boxes(4), pillars(2), size(190-190)], One),
+    random_room(9, [boxes(4), pillars(2), size(190-190), things(0)], Again),
+    random_grid(9, [], Two),
+    random_grid(9, [things(0-0)], Again2).
+test(a_grid_with_too_many_things, error(resource_error(grid))) :-
+    random_grid(1, [size(3-3), boxes(0), things(9)], _).
+test(a_room_with_too_many_things, error(resource_error(room))) :-
+    random_room(1, [size(120-120), boxes(0), pillars(0), things(20)], _).
+
+place_of(box(X, Y, _, _), X, Y).
+place_of(box(X, Y, _, _, _, _), X, Y).
 
 test(a_grid_that_is_too_full, error(resource_error(grid))) :-
     random_grid(1, [size(3-3), boxes(8), free([[2, 2]])], _).
