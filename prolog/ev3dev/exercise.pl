@@ -15,6 +15,9 @@
             time_to/3,                  % +Place, +Radius, -Seconds
             cells_visited/2,            % +Size, -Count
             lap_fraction/2,             % +Distance, -Share
+            pushed/2,                   % ?Name, -Length
+            carried/2,                  % ?Name, -Length
+            thing_in/2,                 % ?Name, +Area
             commands/1,                 % ?Count
             said/1,                     % -Text
             printed/1                   % +Text
@@ -24,12 +27,13 @@
 :- use_module(private/checks/arguments, [must_be_options/3, number_value/3]).
 :- use_module(private/checks/checks, [must_be/2]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
-:- use_module(private/checks/places, [place/2]).
+:- use_module(private/checks/places, [place/2, places/2]).
+:- use_module(private/errors/errors, [domain_error/2]).
 :- use_module(private/marking/mark,
               [ check_solution/2, marks/4, tried/3 ]).
 :- use_module(private/marking/record,
-              [run_collision/1, run_fact/1, run_pose/4]).
-:- use_module(library(lists), [append/3, last/2, member/2]).
+              [run_collision/1, run_fact/1, run_pose/4, run_things/3]).
+:- use_module(library(lists), [append/3, last/2, member/2, reverse/2]).
 :- reexport(random_worlds).
 
 /** <module> Exercises, and how programs do in them
@@ -247,7 +251,8 @@ run_world(Facts) :-
 
 %!  collisions(?Count) is semidet.
 %
-%   How often the robot ran into something; 256 if more often.
+%   How often the robot ran into something; 256 if more often. A thing that it
+%   began to push counts, too; one that lies between open jaws does not.
 
 collisions(Count) :-
     findall(x, run_collision(_), Collisions),
@@ -385,6 +390,106 @@ between_places(X0-Y0, X1-Y1, Places) :-
               X is X0 + (X1-X0)*N/Count,
               Y is Y0 + (Y1-Y0)*N/Count ),
             Places).
+
+%!  pushed(?Name, -Length) is nondet.
+%!  carried(?Name, -Length) is nondet.
+%
+%   The length, in cm, of the way on which the thing called Name moved: pushed
+%   is what it moved by itself or by a push, and carried what it moved while a
+%   gripper of the robot held it. Things are those of sim_thing/4. Fails if
+%   there was no such thing.
+
+pushed(Name, Length) :-
+    thing_ways(Name, Length, _).
+
+carried(Name, Length) :-
+    thing_ways(Name, _, Length).
+
+thing_ways(Name, Pushed, Carried) :-
+    findall(Things-Held, run_things(_, Things, Held), Newest),
+    findall(Each,
+            ( member(Things-_, Newest),
+              member(thing(Each, _, _, _), Things) ),
+            All),
+    sort(All, Names),
+    one_named(Name, Name, Names),
+    reverse(Newest, Moments),
+    moved(Moments, Name, 0, Pushed, 0, Carried).
+
+%   A name that is given leaves no choice.
+
+one_named(Name, Found, All) :-
+    (   nonvar(Name)
+    ->  memberchk(Found, All)
+    ;   member(Found, All)
+    ).
+
+moved([Things-Held|Moments], Name, Pushed0, Pushed, Carried0, Carried) :-
+    (   Moments = [Things1-Held1|_]
+    ->  (   memberchk(thing(Name, X, Y, _), Things),
+            memberchk(thing(Name, X1, Y1, _), Things1)
+        ->  Length is sqrt((X1-X)**2 + (Y1-Y)**2)
+        ;   Length = 0
+        ),
+        (   memberchk(Name, Held),
+            memberchk(Name, Held1)
+        ->  Pushed1 = Pushed0,
+            Carried1 is Carried0+Length
+        ;   Pushed1 is Pushed0+Length,
+            Carried1 = Carried0
+        ),
+        moved(Moments, Name, Pushed1, Pushed, Carried1, Carried)
+    ;   Pushed = Pushed0,
+        Carried = Carried0
+    ).
+
+%!  thing_in(?Name, +Area) is nondet.
+%
+%   True if the thing called Name lies in Area at the end: its middle is
+%   there, and no gripper of the robot holds it. Area is a list of corners, as
+%   a patch of the world has, or circle(X, Y, Radius).
+%
+%   @error domain_error(area, Area)
+%   @error as is/2
+
+thing_in(Name, Area0) :-
+    area(Area0, Area),
+    run_things(_, Things, Held),
+    !,                                  % the latest
+    one_named(Name, thing(Name, X, Y, _), Things),
+    \+ memberchk(Name, Held),
+    within(Area, X, Y).
+
+area(Area0, Area) :-
+    must_be(nonvar, Area0),
+    (   Area0 = circle(X0, Y0, Radius0)
+    ->  place(X0-Y0, X-Y),
+        number_value(positive_number, Radius0, Radius),
+        Area = circle(X, Y, Radius)
+    ;   Area0 = [_, _, _|_]
+    ->  places(Area0, Corners),
+        Area = corners(Corners)
+    ;   domain_error(area, Area0)
+    ).
+
+within(circle(X0, Y0, Radius), X, Y) :-
+    (X-X0)**2 + (Y-Y0)**2 =< Radius**2.
+within(corners(Corners), X, Y) :-
+    Corners = [First|_],
+    append(Corners, [First], Around),
+    findall(x, ( edge(Around, From, To), left_of(From, To, X, Y) ), Edges),
+    length(Edges, Count),
+    Count mod 2 =:= 1.
+
+edge([From, To|_], From, To).
+edge([_|Corners], From, To) :-
+    edge(Corners, From, To).
+
+%   A line from the place to the right crosses an odd number of edges.
+
+left_of(X1-Y1, X2-Y2, X, Y) :-
+    ( Y1 =< Y -> Y < Y2 ; Y2 =< Y ),
+    X < X1 + (Y-Y1)*(X2-X1)/(Y2-Y1).
 
 %!  commands(?Count) is semidet.
 %

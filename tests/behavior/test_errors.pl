@@ -119,8 +119,8 @@ bad(map_occupancy(0, 0, _), [_-1, far-2]).
 bad(explore([]), [_-1, [x(1)]-1]).
 bad(sim_fenced(nofile, _), [_-1]).
 bad(sim_fenced(nofile, _, []), [_-1, [seed(1)]-3, [sleep(a)]-3, [seconds(-1)]-3, [cpu(a)]-3, [goal(1)]-3]).
-bad(random_room(1, [], _), [_-1, a-1, _-2, [size(3)]-2, [boxes(2-1)]-2, [box(1)]-2]).
-bad(random_grid(1, [], _), [_-1, a-1, [size(3)]-2, [boxes(a)]-2, [cell(0)]-2]).
+bad(random_room(1, [], _), [_-1, a-1, _-2, [size(3)]-2, [boxes(2-1)]-2, [things(a)]-2, [box(1)]-2]).
+bad(random_grid(1, [], _), [_-1, a-1, [size(3)]-2, [boxes(a)]-2, [things(-1)]-2, [cell(0)]-2]).
 bad(random_maze(1, [], _), [_-1, a-1, [size(3)]-2, [cell(-1)]-2, [x(1)]-2]).
 bad(random_track(1, [], _), [_-1, a-1, [radius(0)]-2, [wave(a)]-2, [x(1)]-2]).
 bad(exercise_mark(nofile, [], [], _), [_-1, a-2, [seed(1)]-3]).
@@ -132,6 +132,7 @@ bad(time_to(0-0, 10, _), [_-1, far-1, _-2, 0-2]).
 bad(ended_near(0-0, _), [_-1, far-1]).
 bad(cells_visited(30, _), [_-1, 0-1, a-1]).
 bad(lap_fraction(5, _), [_-1, 0-1]).
+bad(thing_in(cube, [0-0, 1-0, 0-1]), [_-2, far-2, [0-0, 1-0]-2, circle(0, 0, 0)-2]).
 bad(printed(a), [_-1, f(x)-1]).
 bad(sim_batch_work(localhost, 1), [_-1, 7-1, _-2, a-2, 0-2]).
 bad(sim_batch(nofile, a, [1], _, []), [_-1, [redis(1)]-5, [workers(0)]-5, [wall(-1)]-5, [cpu(a)]-5, [seed(1)]-5, [progress(1)]-5]).

@@ -18,7 +18,7 @@ honest([ ":- use_module(library(ev3dev)).",
 %   that `make check` tries.
 
 cheat(says_its_marks,       ["start :- writeln('Together: 10 of 10 points'), nl."]).
-cheat(speaks_as_a_run,      ["start :- writeln('score(result(over,5.0,[1,1],\\'\\',\\'\\',[],[]))').",
+cheat(speaks_as_a_run,      ["start :- writeln('score(result(over,5.0,[1,1],\\'\\',\\'\\',[],[],[]))').",
                              ":- writeln('over(exited(0))')."]).
 cheat(halts_at_once,        [":- halt."]).
 cheat(does_not_end,         ["start :- repeat, fail."]).

@@ -58,6 +58,9 @@ finite(Number) :-
 %   all values, or a text.
 
 allowed(acceleration,       'an acceleration must be from 1 to 1000 cm/s^2').
+allowed(area,
+        'an area must be a list of three corners or more, or \c
+         circle(X, Y, Radius)').
 allowed(battery_key,        [voltage, current, percent, type]).
 allowed(button,             [up, down, left, right, enter, back]).
 allowed(button_event,       [pressed, released]).

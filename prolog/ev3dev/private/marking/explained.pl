@@ -153,6 +153,12 @@ wanted(time_to(Place, Radius, _), _, Words) :-
     !,
     format(string(Words), "it was never within ~w cm of ~w",
            [Radius, Place]).
+wanted(thing_in(Name, _), _, Words) :-
+    !,
+    (   var(Name)
+    ->  Words = "nothing lay there at the end"
+    ;   format(string(Words), "~w did not lie there at the end", [Name])
+    ).
 wanted(Comparison, Known, Words) :-
     Comparison =.. [Operator, Value, Limit],
     needed(Operator, Needed),
@@ -190,6 +196,10 @@ measured(path_turns(Degrees), Words) :-
     format(string(Words), "it turned by ~0f degrees", [Degrees]).
 measured(ended_near(Place, Cm), Words) :-
     format(string(Words), "it ended ~0f cm from ~w", [Cm, Place]).
+measured(pushed(Name, Cm), Words) :-
+    format(string(Words), "~w was pushed ~0f cm", [Name, Cm]).
+measured(carried(Name, Cm), Words) :-
+    format(string(Words), "~w was carried ~0f cm", [Name, Cm]).
 measured(duration(Seconds), Words) :-
     format(string(Words), "it took ~1f s", [Seconds]).
 measured(commands(Count), Words) :-

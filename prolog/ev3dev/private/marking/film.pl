@@ -4,7 +4,7 @@
 :- use_module('../basics/fields', [goal_expansion/2, term_expansion/2]).
 :- use_module(records, []).
 :- use_module('../../sim', [with_sim/3]).
-:- use_module('../../sim_views', [sim_svg/1]).
+:- use_module('../../sim_views', [sim_svg/1, sim_things/1]).
 :- use_module(read, [exercise_setting/3, exercise_world/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
@@ -12,8 +12,8 @@
 /** <module> A run as a picture with a slider
 
 The picture of the world is the simulator's; what is added is the way of the
-robot in ten parts that grow darker, where it ran into something, and a robot
-that a slider moves.
+robot in ten parts that grow darker, where it ran into something, the ways of
+things that were moved, and robot and things, which a slider moves.
 */
 
 %!  film(+Exercise, +Seed, +Result) is det.
@@ -21,9 +21,11 @@ that a slider moves.
 %   Print HTML. Result is as of marked_run/5.
 
 film(Exercise, Seed, Result) :-
-    Result = result(seconds: Seconds, film: Film, collisions: Collisions),
-    world_picture(Exercise, Seed, Head, Robot),
+    Result = result(seconds: Seconds, film: Film, ways: Ways,
+                    collisions: Collisions),
+    world_picture(Exercise, Seed, Head, Robot, Names),
     write(Head),
+    forall(( member(_-Way, Ways), Way = [_, _|_] ), thing_way(Way)),
     way(Film, Seconds),
     forall(member(collision(Time, X, Y, _), Collisions),
            format("<circle cx=\"~2f\" cy=\"~2f\" r=\"3\" fill=\"#d00\">\c
@@ -38,19 +40,27 @@ film(Exercise, Seed, Result) :-
             <p>The way is light at the beginning and dark at the end. Red \c
             points: where it ran into something.</p>~n<script>~n\c
             const film = [", [Last]),
-    poses(Film),
+    forall(member(Pose, Film), numbers(Pose)),
+    format("]~nconst ways = [", []),
+    forall(member(Name, Names),
+           ( ( memberchk(Name-Way, Ways) -> true ; Way = [] ),
+             format("[", []),
+             forall(member(Place, Way), numbers(Place)),
+             format("],", []) )),
     format("]~nconst seconds = ~3f~n", [Seconds]),
     script.
 
 %   Up to its robot, and from there on. The path there is that of no run.
+%   Names are those of its things, in their order in the picture.
 
-world_picture(Exercise, Seed, Head, Robot) :-
+world_picture(Exercise, Seed, Head, Robot, Names) :-
     exercise_world(Exercise, Seed, World),
     exercise_setting(Exercise, robot(Shape), default),
     tmp_file(ev3dev_picture, File),
     setup_call_cleanup(
         true,
-        ( with_sim(World, sim_svg(File), [clock(virtual), robot(Shape)]),
+        ( with_sim(World, ( sim_svg(File), sim_things(Things) ),
+                   [clock(virtual), robot(Shape)]),
           read_file_to_string(File, Svg, [encoding(utf8)]) ),
         catch(delete_file(File), error(_, _), true)),
     sub_string(Svg, Before, _, _, "<polyline class=\"path\""),
@@ -58,7 +68,19 @@ world_picture(Exercise, Seed, Head, Robot) :-
     Begin > Before,
     !,
     sub_string(Svg, 0, Before, _, Head),
-    sub_string(Svg, Begin, _, 0, Robot).
+    sub_string(Svg, Begin, _, 0, Robot),
+    findall(Name, member(thing(Name, _, _, _), Things), Names).
+
+thing_way(Way) :-
+    format("<polyline points=\"", []),
+    forall(member([_, X, Y, _], Way), point(X, Y)),
+    format("\" fill=\"none\" stroke=\"#888\" stroke-width=\"0.6\" \c
+            stroke-dasharray=\"2 1.5\"/>~n", []).
+
+point(X, Y) :-
+    CmX is X/10,
+    CmY is Y/10,
+    format("~1f,~1f ", [CmX, CmY]).
 
 way(Film, Seconds) :-
     length(Film, Count),
@@ -74,8 +96,7 @@ way([Pose|Film], Size, N, Seconds) :-
     ),
     Light is 75-6*N,
     format("<polyline points=\"", []),
-    forall(member([X, Y, _], Part),
-           ( CmX is X/10, CmY is Y/10, format("~1f,~1f ", [CmX, CmY]) )),
+    forall(member([X, Y, _], Part), point(X, Y)),
     From is N*Seconds/10,
     format("\" fill=\"none\" stroke=\"hsl(220 80% ~d%)\" stroke-width=\"1\">\c
             <title>from ~1f s</title></polyline>~n", [Light, From]),
@@ -90,18 +111,24 @@ taken(Count, [Pose|Film], [Pose|Part], Rest) :-
     Left is Count-1,
     taken(Left, Film, Part, Rest).
 
-poses([]).
-poses([[X, Y, H]|Film]) :-
-    format("[~d,~d,~d],", [X, Y, H]),
-    poses(Film).
+numbers(Numbers) :-
+    atomic_list_concat(Numbers, ',', Text),
+    format("[~w],", [Text]).
 
 script :-
     format("const robot = document.querySelector('g.robot')~n\c
+const things = document.querySelectorAll('svg .thing')~n\c
 const slider = document.getElementById('moment')~n\c
-function show () {~n\c
-  const [x, y, heading] = film[slider.value]~n\c
-  robot.setAttribute('transform',~n\c
+function place (shape, [x, y, heading]) {~n\c
+  shape.setAttribute('transform',~n\c
     `translate(${x / 10},${y / 10}) rotate(${-heading})`)~n\c
+}~n\c
+function show () {~n\c
+  place(robot, film[slider.value])~n\c
+  ways.forEach((way, index) => {~n\c
+    const there = way.filter(([moment]) => moment <= slider.value).pop()~n\c
+    if (there) place(things[index], there.slice(1))~n\c
+  })~n\c
   document.getElementById('time').textContent =~n\c
     (seconds * slider.value / Math.max(1, film.length - 1)).toFixed(1)~n\c
 }~n\c

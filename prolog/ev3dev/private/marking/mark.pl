@@ -489,14 +489,14 @@ results_come(Jobs, Batch, Done0, Done) :-
 %   What is wrong here is wrong with the exercise, or the machine.
 
 result_of(Score, Result) :-
-    (   functor(Score, result, 7)
+    (   Score = result(ended: _)
     ->  Result = Score
     ;   Score = error(Message),
         Message \== died
     ->  throw(error(system_error(Message), _))
     ;   Result = result(lost, 0, none,
                         'This run was lost: its process has ended.', '', [],
-                        [])
+                        [], [])
     ).
 
 write_batch(File, Jobs, Exercise-Text, Programs, Enclosed) :-

@@ -2,7 +2,7 @@
 :- use_module('../basics/fields', [fields/1]).
 
 :- fields(result(ended, seconds, shares, reason, collision, film,
-                 collisions)).
+                 ways, collisions)).
 :- fields(mark(name, points, of, scores, runs, reason)).
 :- fields(marked(name, mark, results, submission)).
 :- fields(class(participants, left, earlier, given)).

@@ -10,7 +10,7 @@
                 read_exercise/2, score_shares/2 ]).
 :- use_module(reasons, [reason/6]).
 :- use_module(record,
-              [record_end/3, recorded/3, run_fact/1, with_record/4]).
+              [record_end/3, recorded/4, run_fact/1, with_record/4]).
 :- use_module(why, [collision_reason/1]).
 :- use_module('../errors/message_text', [message_text/2]).
 :- use_module('../batch/workplace', [end_workplace/1, new_workplace/2]).
@@ -58,10 +58,11 @@ marking_exercise(File, Text) :-
 %!  marked_run(+Files, +Seed, +Enclosed, -Result) is det.
 %
 %   Run a program. Files are Path-Text, of which the first begins. Result is
-%   result(Ended, Seconds, Shares, Reason, Collision, Film, Collisions): the
-%   share of each score, a text of what went wrong or '', and one of how it
-%   ran into something, or ''. Whatever the program leaves or breaks, so that
-%   nothing can be said of it, ends this run alone: it is lost.
+%   result(Ended, Seconds, Shares, Reason, Collision, Film, Ways, Collisions):
+%   the share of each score, a text of what went wrong or '', and one of how
+%   it ran into something, or ''; Film and Ways are as of recorded/4. Whatever
+%   the program leaves or breaks, so that nothing can be said of it, ends this
+%   run alone: it is lost.
 %
 %   @error what is wrong with the exercise
 
@@ -69,7 +70,7 @@ marked_run(Files, Seed, Enclosed, Result) :-
     catch(run_of(Files, Seed, Enclosed, Result), lost_run(Error),
           ( message_text(Error, Why0),
             atom_concat('This run was lost: ', Why0, Why),
-            Result = result(lost, 0, none, Why, '', [], []) )).
+            Result = result(lost, 0, none, Why, '', [], [], []) )).
 
 or_lost(Goal) :-
     catch(Goal, error(Formal, Context),
@@ -85,7 +86,7 @@ run_of([Name-Text|Others], Seed, Enclosed, Result) :-
                ended(Ended, Output, File)),
     exercise_setting(Exercise, cpu(Cpu), 10),
     exercise_setting(Exercise, sleep(Sleep), 30),
-    recorded(Film, Collisions, Took),
+    recorded(Film, Ways, Collisions, Took),
     reason(Ended, Output, File, limits(Cpu, Sleep), Took, Reason),
     (   Took =:= 0
     ->  Shares = none,
@@ -107,7 +108,7 @@ run_of([Name-Text|Others], Seed, Enclosed, Result) :-
     ->  true
     ;   Collision = ''
     ),
-    Result = result(Ended, Took, Shares, Reason1, Collision, Film,
+    Result = result(Ended, Took, Shares, Reason1, Collision, Film, Ways,
                     Collisions).
 
 %!  fenced_run(+Marking, +Files, +Goal, +Seed, +Enclosed, -Ended) is det.

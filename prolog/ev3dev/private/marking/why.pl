@@ -1,7 +1,7 @@
 :- module(ev3dev_marking_why,
           [ collision_reason/1          % -Text
           ]).
-:- use_module(record, [run_collision/1, run_fact/1]).
+:- use_module(record, [run_collision/1, run_fact/1, run_things/3]).
 :- use_module(library(lists), [last/2, member/2, nth0/3]).
 
 /** <module> Why a robot ran into something
@@ -15,7 +15,7 @@
 collision_reason(Text) :-
     run_collision(collision(Time, X, Y, _)),
     !,
-    into(X, Y, What),
+    into(X, Y, Time, What),
     format(atom(Text0),
            'At ~1f s it ran into ~w.', [Time, What]),
     (   findall(Rule, ( run_fact(told(Then, Rule)), Then =< Time ), Rules),
@@ -78,17 +78,57 @@ seen(Then, File, Text, Time, Shown) :-
 
 %   What is nearest to the middle of the robot, by its outline.
 
-into(X, Y, What) :-
+into(X, Y, Time, What) :-
     run_fact(world(Facts)),
     findall(Distance-Words,
-            ( member(Fact, Facts),
-              thing(Fact, X-Y, Distance, Words) ),
+            ( stands(Facts, Time, Fact, Name),
+              thing(Fact, X-Y, Distance, Words0),
+              ( Name == '' -> Words = Words0 ; Words = Name ) ),
             Things),
     keysort(Things, [Nearest-What0|_]),
     Nearest < 40,
     !,
     What = What0.
-into(_, _, 'a wall').
+into(_, _, _, 'a wall').
+
+%   A fact without its options, and the name that these give to it, or ''. A
+%   thing that robots push stands where it was at that Time.
+
+stands(Facts, Time, Fact, Name) :-
+    findall(Thing, ( member(Thing, Facts), moves(Thing) ), Moving),
+    findall(Things, run_things(_, Things, _), Newest),
+    ( last(Newest, First) -> true ; First = [] ),
+    (   run_things(Then, Now, _),
+        Then =< Time
+    ->  true
+    ;   Now = First
+    ),
+    (   member(Fact0, Facts),
+        \+ moves(Fact0),
+        without_options(Fact0, Fact, Options)
+    ;   nth0(Index, Moving, Fact0),
+        nth0(Index, First, thing(Known, _, _, _)),
+        memberchk(thing(Known, X, Y, Heading), Now),
+        without_options(Fact0, Fact1, Options),
+        placed(Fact1, X, Y, Heading, Fact)
+    ),
+    ( memberchk(name(Name0), Options) -> Name = Name0 ; Name = '' ).
+
+moves(Fact) :-
+    without_options(Fact, _, Options),
+    memberchk(mass(_), Options).
+
+without_options(Fact0, Fact, Options) :-
+    (   Fact0 = box(X, Y, W, D, Heading, Options)
+    ->  Fact = box(X, Y, W, D, Heading)
+    ;   Fact0 = circle(X, Y, Radius, Options)
+    ->  Fact = circle(X, Y, Radius)
+    ;   Fact = Fact0,
+        Options = []
+    ).
+
+placed(box(_, _, W, D, _), X, Y, Heading, box(X, Y, W, D, Heading)).
+placed(circle(_, _, Radius), X, Y, _, circle(X, Y, Radius)).
 
 thing(box(X, Y, W, D), Place, Distance, Words) :-
     thing(box(X, Y, W, D, 0), Place, Distance, Words).
