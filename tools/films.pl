@@ -15,27 +15,32 @@
 :- use_module(library(lists)).
 :- use_module(library(readutil)).
 
-% film(Example, Goal, World, Seconds)
+% film(Example, Goal, World, Robot, Seconds)
 film(square,             start, [bounds(-130, -40, 140, 140), start(0, 0, 0)],
-     80).
-film(obstacle_avoidance, start, room, 40).
-film(rules_wander,       start, room, 40).
-film(line_following,     start, line, 45).
-film(braitenberg,        vehicle(aggression), lights, 25).
-film(slalom,             start, [bounds(-40, -60, 260, 100), start(0, 0, 90)], 30).
-film(grid_navigation,    start, grid, 45).
+     default, 80).
+film(obstacle_avoidance, start, room, default, 40).
+film(rules_wander,       start, room, default, 40).
+film(line_following,     start, line, default, 45).
+film(braitenberg,        vehicle(aggression), lights, default, 25).
+film(slalom,             start, [bounds(-40, -60, 260, 100), start(0, 0, 90)],
+     default, 30).
+film(grid_navigation,    start, grid, default, 45).
 film(golog_rescue,
-     ( sim_add(patch(red, [48-28, 72-28, 72-52, 48-52])), start ), grid, 60).
-film(room_navigation,    start, room, 40).
-film(explore_room,       start, room, 90).
-film(rules_sumo,         start, sumo, 25).
+     ( sim_add(patch(red, [48-28, 72-28, 72-52, 48-52])), start ), grid,
+     default, 60).
+film(room_navigation,    start, room, default, 40).
+film(explore_room,       start, room, default, 90).
+film(rules_sumo,         start, sumo, default, 25).
+film(clear_the_ring,     start, cans, default, 110).
+film(sort_parcels,       start, parcels, carrier, 130).
+film(goal,               start, soccer, carrier, 60).
 
 main :-
     paper('docs/first-afternoon.md'),
     expand_file_name('prolog/ev3dev/worlds/*.pl', Worlds),
     forall(member(World, Worlds), world(World)),
-    forall(film(Example, Goal, World, Seconds),
-           (   catch(film_of(Example, Goal, World, Seconds), E,
+    forall(film(Example, Goal, World, Robot, Seconds),
+           (   catch(film_of(Example, Goal, World, Robot, Seconds), E,
                      ( print_message(error, E), fail ))
            ->  true
            ;   format(user_error, "no film of ~w~n", [Example])
@@ -118,9 +123,10 @@ world(Path) :-
 
 % ---------------- FILMS
 
-%   The path stays; the robot moves along it, ten times as fast as it did.
+%   The path stays; the robot moves along it, ten times as fast as it did, and
+%   so do the things that it pushes or carries.
 
-film_of(Example, Goal, World, Seconds) :-
+film_of(Example, Goal, World, Robot, Seconds) :-
     format("~w~n", [Example]),
     atomic_list_concat(['examples/', Example, '.pl'], Source),
     load_files(Example:Source, [silent(true)]),
@@ -129,30 +135,65 @@ film_of(Example, Goal, World, Seconds) :-
     tmp_file(film, Svg),
     with_sim(World,
              ( ev3dev_marking_record:with_record(
-                   user:ignore(for_seconds(Seconds, Own:Goal)), 1, World, default),
+                   user:ignore(for_seconds(Seconds, Own:Goal)), 1, World, Robot),
                ev3dev_marking_record:record_end(over, "", []),
-               sim_svg(Svg) ),
-             [clock(virtual), seed(1)]),
+               sim_svg(Svg), sim_things(Things) ),
+             [clock(virtual), seed(1), robot(Robot)]),
     read_file_to_string(Svg, Text, [encoding(utf8)]),
-    recorded(Film0, _, Took),
-    thinned(Film0, Film),
+    recorded(Film0, Ways, _, Took),
+    thinned(Film0, Places, Film),
+    Duration is Took/10,
     once(sub_string(Text, Begin, _, _, "<g class=\"robot\"")),
     sub_string(Text, 0, Begin, _, Head0),
     sub_string(Text, Begin, _, 0, Robot0),
     sub_string(Robot0, Close, 1, _, ">"),
     !,
     After is Close+1,
-    sub_string(Robot0, After, _, 0, Robot),
+    sub_string(Robot0, After, _, 0, Inside),
     half_size(Head0, Head),
-    Duration is Took/10,
+    findall(Way,
+            ( member(thing(Name, _, _, _), Things), memberchk(Name-Way, Ways) ),
+            Its),
     setup_call_cleanup(
         open(File, write, Out, [encoding(utf8)]),
-        ( write(Out, Head),
+        ( split_string(Head, "\n", "", Lines),
+          moving_things(Lines, Its, Places-Duration, Out),
           format(Out, "<g class=\"robot\">~n", []),
           animation(Out, translate, Film, Duration),
           animation(Out, rotate, Film, Duration),
-          write(Out, Robot) ),
+          write(Out, Inside) ),
         close(Out)).
+
+%   A thing is an element of one line; those that rest stay as they are.
+
+moving_things([Last], _, _, Out) :-
+    !,
+    write(Out, Last).
+moving_things([Line|Lines], Things, Places-Duration, Out) :-
+    (   sub_string(Line, _, _, _, "class=\"thing\""),
+        Things = [Way|Things1]
+    ->  (   Way = [_, _|_]
+        ->  moving_thing(Line, Way, Places, Duration, Out)
+        ;   format(Out, "~s~n", [Line])
+        )
+    ;   Things1 = Things,
+        format(Out, "~s~n", [Line])
+    ),
+    moving_things(Lines, Things1, Places-Duration, Out).
+
+moving_thing(Line, Way, Places, Duration, Out) :-
+    once(sub_string(Line, Before, _, _, " transform=")),
+    sub_string(Line, 0, Before, _, Shape),
+    split_string(Shape, " ", "<", [Element|_]),
+    findall(Pose, ( member(Place, Places), there(Way, Place, Pose) ), Film),
+    format(Out, "~s>~n", [Shape]),
+    animation(Out, translate, Film, Duration),
+    animation(Out, rotate, Film, Duration),
+    format(Out, "</~s>~n", [Element]).
+
+there(Way, Place, Pose) :-
+    findall(Its, ( member([At|Its], Way), At =< Place ), Poses),
+    last(Poses, Pose).
 
 animation(Out, Type, Film, Duration) :-
     findall(Value, ( member(Pose, Film), moved(Type, Pose, Value) ), Values),
@@ -168,12 +209,14 @@ moved(translate, [X, Y, _], Value) :-
 moved(rotate, [_, _, H], Value) :-
     Value is -H.
 
-%   At most 150 poses.
+%   At most 150 poses, and their places in Film.
 
-thinned(Film, Thin) :-
+thinned(Film, Places, Thin) :-
     length(Film, Count),
     Step is max(1, ceiling(Count/150)),
-    findall(Pose, ( nth0(N, Film, Pose), N mod Step =:= 0 ), Thin).
+    findall(N-Pose, ( nth0(N, Film, Pose), N mod Step =:= 0 ), Pairs),
+    findall(N, member(N-_, Pairs), Places),
+    findall(Pose, member(_-Pose, Pairs), Thin).
 
 half_size(Text0, Text) :-
     sub_string(Text0, Before, _, _, " width=\""),

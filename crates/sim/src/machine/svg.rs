@@ -34,7 +34,10 @@ impl Machine {
         if let Some(bounds) = &self.scene.bounds {
             svg.bounds(bounds);
         }
-        for (id, item) in self.items() {
+        // What moves comes to lie on what the floor has.
+        let (things, fixed): (Vec<_>, Vec<_>) =
+            self.items().partition(|(_, item)| item.movable().is_some());
+        for (id, item) in fixed.into_iter().chain(things) {
             draw_item(&mut svg, id.0, &item);
         }
         for (id, item) in self.other_robots() {
@@ -51,7 +54,9 @@ impl Machine {
             let style = "fill=\"#f80\"";
             svg.circle(" class=\"collision\"", hit.pose.point(), "1.5", style);
         }
-        draw_robot(&mut svg, pose, self.robot.hull);
+        let jaws = self.robot.grippers.iter();
+        let jaws: Vec<_> = jaws.filter_map(|it| Some((it.at, self.opening(it.port)?))).collect();
+        draw_robot(&mut svg, pose, self.robot.hull, &jaws);
         svg.into_text()
     }
 
@@ -72,7 +77,13 @@ impl Machine {
 }
 
 fn draw_item(svg: &mut Svg, id: u32, item: &Item) {
-    let name = &format!(" id=\"item{id}\"");
+    let moves = item.movable().map(|(pose, ..)| pose);
+    // With an outline, as it may lie on a floor of its color.
+    let class = match moves {
+        Some(_) => " class=\"thing\" stroke=\"#111\" stroke-width=\"0.7\"",
+        None => "",
+    };
+    let name = &format!(" id=\"item{id}\"{class}");
     let color = item.traits().and_then(|traits| traits.color);
     let fill = color.map_or_else(|| "#987".to_owned(), |color| color.to_string());
     match item.shape() {
@@ -85,7 +96,13 @@ fn draw_item(svg: &mut Svg, id: u32, item: &Item) {
             svg.rectangle(name, [-width / 2.0, -depth / 2.0], [width, depth], style);
         }
         Shape::Disc { center, radius } => {
-            svg.circle(name, center, &format!("{radius:.2}"), &format!("fill=\"{fill}\""));
+            // What moves has its place in one attribute, so that a script can move it.
+            let (center, place) = match moves {
+                Some(pose) => ([0.0; 2], format!(" {}", placed(pose))),
+                None => (center, String::new()),
+            };
+            let style = &format!("fill=\"{fill}\"{place}");
+            svg.circle(name, center, &format!("{radius:.2}"), style);
         }
         Shape::Area { corners, color } => {
             let corners = points(corners);
@@ -109,7 +126,8 @@ fn placed(Pose { x, y, heading }: Pose) -> String {
     format!("transform=\"translate({x:.2},{y:.2}) rotate({:.2})\"", -heading)
 }
 
-fn draw_robot(svg: &mut Svg, pose: Pose, hull: Hull) {
+/// Jaws are the points between them and how far they are apart.
+fn draw_robot(svg: &mut Svg, pose: Pose, hull: Hull, jaws: &[([f64; 2], f64)]) {
     svg.add(format_args!("<g class=\"robot\" {}>", placed(pose)));
     let style = "fill=\"#36c\" fill-opacity=\"0.6\" stroke=\"#036\" stroke-width=\"0.5\"";
     let nose = match hull {
@@ -123,6 +141,18 @@ fn draw_robot(svg: &mut Svg, pose: Pose, hull: Hull) {
         }
     };
     svg.add(format_args!(
-        "<line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"{nose:.2}\" stroke=\"#fff\" stroke-width=\"0.8\"/>\n</g>"
+        "<line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"{nose:.2}\" stroke=\"#fff\" stroke-width=\"0.8\"/>"
     ));
+    // As the page draws them: two arms, whose ends are as far apart as the jaws.
+    for ([x, y], opening) in jaws {
+        for side in [-1.0, 1.0] {
+            let end = x + side * (opening / 2.0 + 0.5);
+            let arm = [[x + 2.5 * side, (y - 7.0).max(0.0)], [end, y - 2.5], [end, y + 2.5]];
+            svg.add(format_args!(
+                "<polyline class=\"jaw\" points=\"{}\" fill=\"none\" stroke=\"#036\"/>",
+                points(&arm)
+            ));
+        }
+    }
+    svg.add(format_args!("</g>"));
 }

@@ -337,7 +337,32 @@ fn a_saved_world_has_things_where_they_are() {
     let fact = format!("box({x}, 50, 6, 6, 0, [mass(0.1), name('the cargo')])");
     assert!(desk.0.world_facts().contains(&fact), "{}", desk.0.world_facts());
     let at = format!("translate({x:.2},50.00)");
-    assert!(desk.0.svg().contains(&at), "{at}");
+    let svg = desk.0.svg();
+    let drawn = svg.lines().find(|line| line.contains("class=\"thing\""));
+    assert!(drawn.is_some_and(|line| line.contains(&at)), "{at} in {svg}");
+}
+
+#[test]
+fn a_picture_has_things_that_a_script_can_move() {
+    let traits = Traits { rolls: true, ..mass(0.1) };
+    let moved = ball([50.0, 60.0], traits);
+    let pillar = Item::Circle { center: [90.0, 60.0], radius: 3.0, traits: Traits::default() };
+    let svg = desk(vec![moved, pillar]).0.svg();
+    let line = |id| svg.lines().find(|line| line.contains(id)).unwrap_or_default();
+    assert_eq!(
+        line("item1"),
+        "<circle id=\"item1\" class=\"thing\" stroke=\"#111\" stroke-width=\"0.7\" cx=\"0.00\" cy=\"0.00\" r=\"2.00\" fill=\"#987\" \
+         transform=\"translate(50.00,60.00) rotate(-0.00)\"/>"
+    );
+    assert_eq!(
+        line("item2"),
+        "<circle id=\"item2\" cx=\"90.00\" cy=\"60.00\" r=\"3.00\" fill=\"#987\"/>"
+    );
+    assert!(svg.find("item1") > svg.find("item2"), "a thing may lie on what the floor has");
+    assert!(!svg.contains("jaw"));
+    let held = carrying(Gripper::default());
+    let jaws = held.0.svg().matches("class=\"jaw\"").count();
+    assert_eq!(jaws, 2);
 }
 
 const JAWS: [f64; 2] = [0.0, 12.0];
