@@ -273,7 +273,22 @@ test(rounds_of_several_rows_are_counted) :-
                                                   ~> stop,
                                           never :: fail ~> stop ])),
                   Lines)),
-    count(Lines, 'more rounds of these 3 rows', 1).
+    count(Lines, 'more rounds of these 2 rows', 1),
+    once(( member(Line, Lines), sub_atom(Line, _, _, _, ' - near: ') )),
+    sub_atom(Line, _, _, 0, ' < 1 is false'),
+    count(Lines, '- never: fail', 2).
+test(the_rows_of_a_guard_are_below_its_rule, true(Depths == [0, 1, 2, 0])) :-
+    in_room(( reasoning(for_seconds(1, behave([ far :: clear ~> stop ]))),
+              reasoning_text(Text) )),
+    findall(At,
+            ( member(Part, ["+ far: clear", "+ clear", "+ 10 < ", "+ stop"]),
+              split_string(Text, "\n", "", Lines),
+              once(( member(Line, Lines),
+                     sub_string(Line, At, _, _, Part) )) ),
+            [First|Places]),
+    findall(Depth,
+            ( member(At, [First|Places]), Depth is (At-First)//2 ),
+            Depths).
 test(why_false_names_the_branch_that_got_furthest) :-
     lecture(Lines),
     atomic_list_concat(Lines, ' ', Text),

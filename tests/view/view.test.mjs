@@ -1065,9 +1065,23 @@ group('what Prolog thinks', ['use_module(library(ev3dev/reasoning))', "consult('
     await it.page.setViewport({ width: 1280, height: 800 });
   });
 
+  test('the guard of a rule is folded, and says which test is false', async () => {
+    await it.session.ask("consult('examples/rules_wander.pl')");
+    await it.session.ask('reasoning(for_seconds(1, behave([avoid])))');
+    const rows = () => it.page.$$eval('.outline [role=treeitem]', (all) => all.map((each) => each.textContent));
+    const guard = (row) => /avoid: us_dist_cm/.test(row);
+    await until(async () => (await rows()).some(guard), 'the guard');
+    const folded = await rows();
+    assert.match(folded.find(guard), /[\d.]+ < 25 is false/);
+    assert.ok(!folded.some((row) => /us_dist_cm\(in1,[\d.]+\)/.test(row)), folded.join('\n'));
+    await it.page.evaluate(() => [...document.querySelectorAll('.outline [role=treeitem]')].find((row) => /avoid: us/.test(row.textContent)).querySelector('.fold-row').click());
+    await until(async () => (await rows()).some((row) => /us_dist_cm\(in1,[\d.]+\)/.test(row)), 'what it read');
+  });
+
   test('rounds that do the same are folded, and open by a click', async () => {
     await it.session.ask('reasoning(forall(member(X, [1, 2, 3, 4, 5, 6, 7]), (wait(0.1), X > 0)))');
     const labels = () => it.page.$$eval('.outline code', (all) => all.map((each) => each.textContent));
+    await until(async () => (await labels())[0]?.startsWith('forall'), 'this run');
     await until(async () => (await labels()).some((words) => /more rounds|more that do the same/.test(words)), 'the fold');
     const folded = (await labels()).length;
     await it.page.click('.outline .same .fold-row');

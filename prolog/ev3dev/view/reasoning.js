@@ -7,7 +7,7 @@ import { $, attribute, clock, download, el, goTo, icon, notice, num, pressed, te
 import { TURN } from './things.js';
 
 const ROW = 26;
-const [DEPTH, MARK, TEXT, PLAIN, PLACE, FAULT, EFFECT, FROM, TO] = [0, 1, 2, 3, 4, 5, 6, 7, 8];
+const [DEPTH, MARK, TEXT, PLAIN, PLACE, FAULT, EFFECT, FROM, TO, SHUT] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
 /** While a program runs, the outline comes again and again up to so many events. */
 const MOST_LIVE = 3000;
 const MOST_CROSSES = 60;
@@ -135,7 +135,7 @@ export class Reasoning {
       ways.length = Math.min(ways.length, row[DEPTH]);
       ways[row[DEPTH]] = way;
       const made = {
-        depth: row[DEPTH], mark, words, way, place: texts[row[PLACE]], plain: texts[row[PLAIN]], fault: texts[row[FAULT]], effect: texts[row[EFFECT]],
+        depth: row[DEPTH], mark, shut: mark === ' ' || row[SHUT] === 1, words, way, place: texts[row[PLACE]], plain: texts[row[PLAIN]], fault: texts[row[FAULT]], effect: texts[row[EFFECT]],
         from: row[FROM], to: row[TO], has: rows[i + 1]?.[DEPTH] > row[DEPTH], name: ways.filter(Boolean).join('.'), read: null,
       };
       const sensed = SENSED.exec(words);
@@ -189,9 +189,9 @@ export class Reasoning {
 
   // ---------------- rows
 
-  /** Rounds that do the same are folded at first, all else is open. */
+  /** Rounds that do the same and guards are folded at first, all else is open. */
   folded(i) {
-    return this.rows[i].has && (this.rows[i].mark === ' ') !== this.turned.has(i);
+    return this.rows[i].has && this.rows[i].shut !== this.turned.has(i);
   }
 
   fold(i) {

@@ -36,6 +36,7 @@ endless_catch :- catch(endless, nothing, true).
 long(N, L) :- numlist(1, N, L), len(L, _).
 len([], 0).
 len([_|L], N) :- len(L, M), N is M+1.
+clear :- us_dist_cm(in1, D), 10 < D.
 down(0) :- !.
 down(N) :- N1 is N-1, down(N1).
 other_thread :- thread_create(down(100), Id, []), thread_join(Id, true).

@@ -1,6 +1,7 @@
 :- module(ev3dev_frames,
           [ called_by_program/2,        % -Frame, -Called
             goal_of_program/1,          % :Goal
+            goal_of_program/2,          % :Goal, +Label
             in_pack/3,                  % +Predicate, -Module, -Indicator
             is_of_system/1,             % +Predicate
             is_public/2,                % ?Module, +Indicator
@@ -14,13 +15,16 @@ own code. It takes the last exported predicate of the pack. Only an error pays
 for it.
 */
 
-:- meta_predicate goal_of_program(0).
+:- meta_predicate
+    goal_of_program(0),
+    goal_of_program(0, +).
 
 %!  goal_of_program(:Goal) is nondet.
+%!  goal_of_program(:Goal, +Label) is nondet.
 %
 %   Call a Goal of the program. Its errors name the predicate that Goal
 %   called, and not the one that calls Goal. While library(ev3dev/reasoning)
-%   records the program, it records Goal, too.
+%   records the program, it records Goal, too, below a row with the Label.
 
 goal_of_program(Goal) :-
     (   nb_current(ev3dev_reasoning, Node),
@@ -30,15 +34,25 @@ goal_of_program(Goal) :-
     ),
     true.
 
+goal_of_program(Goal, Label) :-
+    (   nb_current(ev3dev_reasoning, Node),
+        Node \== []
+    ->  labelled(Node, Label, Goal)
+    ;   call(Goal)
+    ),
+    true.
+
 %   What calls a goal of the program: no walk goes on beyond it. The recorder
 %   adds its own.
 
 :- multifile
+    labelled/3,                         % Node, Label, Goal
     recorded/2,                         % Node, Goal
     calls_program/1.                    % Indicator
-:- dynamic recorded/2.
+:- dynamic labelled/3, recorded/2.
 
 calls_program(goal_of_program/1).       % of this module
+calls_program(goal_of_program/2).
 
 %!  called_by_program(-Frame, -Called) is semidet.
 %

@@ -333,6 +333,10 @@ goal_rows(Item, After, [Row|Rounds]) :-
     ),
     (   Below == []
     ->  effect(From, To, Note)
+    ;   Goal = ev3dev_guard(_, _),
+        failed_last(Inner, Failed)
+    ->  Failed = episode(goal: Test),
+        Note = false(Test)
     ;   Note = none
     ),
     Row = row(what: goal, goal: Answer, state: State, clause: Clause,
@@ -462,7 +466,10 @@ shape(Row, Shape) :-
     Row = row(what: What, goal: Goal, state: State, clause: Clause,
               below: Below),
     kind(What, Kind),
-    functor(Goal, Name, Arity),
+    (   Goal = ev3dev_guard(Label, _)
+    ->  Name/Arity = guard/Label
+    ;   functor(Goal, Name, Arity)
+    ),
     ( State = error(_) -> State1 = error ; State1 = State ),
     findall(Shape1,
             ( member(Row1, Below), \+ is_same(Row1),

@@ -100,12 +100,14 @@ moment_list([Time, X, Y, Heading]) :-
         Heading = null
     ).
 
-%   Depth, mark, text, plain remark, place, fault, effect, from, to. A text is
-%   the place of it among the texts.
+%   Depth, mark, text, plain remark, place, fault, effect, from, to, and 1 for
+%   the guard of a rule, which is folded. A text is the place of it among the
+%   texts.
 
 row_list(Rows, Depth, List) :-
     member(Row, Rows),
-    Row = row(what: What, state: State, from: From, to: To, below: Below),
+    Row = row(what: What, goal: Goal, state: State, from: From, to: To,
+              below: Below),
     (   mark(What, State, Mark),
         row_words(Row, Text),
         findall(Number,
@@ -115,7 +117,9 @@ row_list(Rows, Depth, List) :-
                 Numbers),
         text_number(Mark, MarkNumber),
         text_number(Text, TextNumber),
-        append([Depth, MarkNumber, TextNumber|Numbers], [From, To], List)
+        ( Goal = ev3dev_guard(_, _) -> Folded = [1] ; Folded = [] ),
+        append([Depth, MarkNumber, TextNumber|Numbers], [From, To|Folded],
+               List)
     ;   Depth1 is Depth+1,
         row_list(Below, Depth1, List)
     ).

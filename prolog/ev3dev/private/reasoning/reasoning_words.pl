@@ -119,7 +119,12 @@ what(cut, Goals, _, Text) :-
         format(string(Text), 'the cut drops more answers of ~w', [Listed])
     ).
 what(_, Goal, _, Text) :-
-    goal_words(Goal, Text).
+    (   Goal = ev3dev_guard(Label, Guard)
+    ->  goal_words(Label, Words),
+        goal_words(Guard, GuardWords),
+        format(string(Text), '~w: ~w', [Words, GuardWords])
+    ;   goal_words(Goal, Text)
+    ).
 
 remark(Row, Kind, Text) :-
     Row = row(what: What, state: State, clause: Clause, note: Note,
@@ -130,6 +135,7 @@ remark(Row, Kind, Text) :-
         What \== clause,
         clause_words(Clause, Text)
     ;   What == goal,
+        Note \= false(_),
         state_remark(State, Below, Kind, Text)
     ;   note_remark(Note, Kind, Text)
     ).
@@ -158,6 +164,9 @@ state_remark(open, Below, plain, "may have more answers") :-
 note_remark(given_up(Goal), fault, Text) :-
     goal_words(Goal, Words),
     format(string(Text), 'given up: ~w', [Words]).
+note_remark(false(Goal), fault, Text) :-
+    goal_words(Goal, Words),
+    format(string(Text), '~w is false', [Words]).
 note_remark(moved(Seconds), effect, Text) :-
     format(string(Text), 'moved ~1f s, stays done', [Seconds]).
 note_remark(commanded, effect, "stays done").

@@ -262,13 +262,33 @@ with(Goal0, More, Module:Goal) :-
 
 :- multifile
     ev3dev_frames:calls_program/1,
+    ev3dev_frames:labelled/3,
     ev3dev_frames:recorded/2.
-:- dynamic ev3dev_frames:recorded/2.
+:- dynamic
+    ev3dev_frames:labelled/3,
+    ev3dev_frames:recorded/2.
 
 ev3dev_frames:calls_program(ev3dev_recorder:goal/4).
 
 ev3dev_frames:recorded(Node, Goal) :-
     ev3dev_recorder:recorded(Node, Goal).
+
+ev3dev_frames:labelled(Node, Label, Goal) :-
+    ev3dev_recorder:labelled(Node, Label, Goal).
+
+%   Goal is below a node of its own, ev3dev_guard(Label, Goal). The guard `true`
+%   has none.
+
+labelled(Node, Label, Module:Goal) :-
+    (   nb_current(ev3dev_reasoning, Current),
+        Current \== [],
+        Current \== off,
+        Goal \== true
+    ->  local(Node, Outer),
+        goal(Outer, Module:ev3dev_guard(Label, Goal),
+             ev3dev_recorder:recorded(Inner, Module:Goal), Inner)
+    ;   recorded(Node, Module:Goal)
+    ).
 
 %!  recovered(+Node, +Ball, :Goal) is nondet.
 %

@@ -18,7 +18,7 @@
               ]).
 :- use_module('../basics/small_lists', [append_lists/3, one_of/2]).
 :- use_module('../errors/errors', [throw_error/3]).
-:- use_module('../errors/frames', [goal_of_program/1]).
+:- use_module('../errors/frames', [goal_of_program/1, goal_of_program/2]).
 
 :- fields(listener(closure, state, period, brick)).
 
@@ -94,7 +94,7 @@ no_guard :-
 
 in_guard(Name, Goal) :-
     b_setval(ev3dev_guard, Name),
-    goal_of_program(Goal),
+    goal_of_program(Goal, Name),
     !,
     b_setval(ev3dev_guard, []).
 
