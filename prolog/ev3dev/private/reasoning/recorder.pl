@@ -276,8 +276,8 @@ ev3dev_frames:recorded(Node, Goal) :-
 ev3dev_frames:labelled(Node, Label, Goal) :-
     ev3dev_recorder:labelled(Node, Label, Goal).
 
-%   Goal is below a node of its own, ev3dev_guard(Label, Goal). The guard `true`
-%   has none.
+%   Goal is below a node of its own, ev3dev_guard(Label, Goal). The guard
+%   `true` has none.
 
 labelled(Node, Label, Module:Goal) :-
     (   nb_current(ev3dev_reasoning, Current),
