@@ -25,6 +25,7 @@ skeleton('05-planners', 0).
 skeleton('06-unknown-grids', 2).
 skeleton('07-golog', 0).
 skeleton('08-competition', 1).
+skeleton('09-parcels', 1).
 
 program('01-first-moves', first_success, skeleton,
         [ "go_cm(30, 60)."-"go_cm(30, 60), turn(20, 90), go_cm(30, 60)." ],
@@ -185,3 +186,34 @@ program('08-competition', no_end, solution, ["drive(_, 0) :-"-"drive(_, -100) :-
         7-9, "It does not stop after two rounds.").
 program('08-competition', too_fast, solution, ["drive_cm(22,"-"drive_cm(50,"],
         0-4, "It loses the line.").
+
+program('09-parcels', first_success, skeleton,
+        [ "deliver(40, 25). "-"col_color(in3, Color), station(Color, X, Y), deliver(X, Y). " ],
+        0-2, "It brings one parcel, if that does not lie beside its place.").
+program('09-parcels', all_places, skeleton,
+        [ "    fetch(40, 125),\n"-"",
+          "deliver(40, 25). "-"forall(place(X, Y), ignore(( fetch(X, Y), col_color(in3, C), station(C, X1, Y1), deliver(X1, Y1) ))). " ],
+        4-4, "It brings two parcels, and does not find those beside their places.").
+program('09-parcels', another_way, solution,
+        [ "place(40, 125).\n"-"", "place(160, 125).\n"-"place(160, 125).\nplace(40, 125).\n",
+          "between(-8, 8, Step)"-"between(-15, 15, Step)", "5*Step"-"3*Step" ],
+        10-10, "It begins at another place, and looks more closely.").
+program('09-parcels', wrong_color, solution, ["station(3, 120"-"station(2, 120", "station(2, 160"-"station(3, 160"],
+        4-4, "It takes green for blue, and blue for green.").
+program('09-parcels', all_are_red, solution, ["    station(Color, StationX"-"    Color > 0, station(5, StationX"],
+        0-2, "It brings all to one station.").
+program('09-parcels', does_not_grip, solution, ["    grip."-"    true."],
+        0-0, "It drives to and fro with open jaws.").
+program('09-parcels', does_not_release, solution, ["    go_cm(20, 24),\n    release,\n"-"    go_cm(20, 24),\n"],
+        0-2, "It puts a parcel down when it wants to grip the next.").
+program('09-parcels', looks_too_far, solution, ["Cm < 28."-"Cm < 60."],
+        0-6, "It takes other parcels and the wall for the one that it looks for.").
+program('09-parcels', no_middle, solution, ["Heading is (First+Last)/2"-"Last =:= Last, Heading = First"],
+        0-4, "It drives to the first echo, and not to the middle of them.").
+program('09-parcels', slow, solution,
+        [ "go_cm(20, 24)"-"go_cm(4, 24)", "go_cm(-20, 24)"-"go_cm(-4, 24)", "go_cm(20, Cm"-"go_cm(4, Cm" ],
+        8-8, "It is slow.").
+program('09-parcels', moves_by_hand, skeleton,
+        [ "library(ev3dev/gripper))."-"library(ev3dev/gripper)).\n:- use_module(library(ev3dev/sim)).",
+          "    fetch(40, 125),\n"-"    sim_place(40, 109, 0), fetch(40, 125)," ],
+        0-0, "A program has no commands of the simulator.").
