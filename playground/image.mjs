@@ -8,7 +8,7 @@ import { library, pack, swiplOf } from './parts.js';
 import { startProlog } from './prolog.js';
 
 /** What is ready at the start; other libraries of the pack are loaded when a program asks. */
-const LIBRARIES = ['ev3dev', 'ev3dev/sim', 'ev3dev/drive', 'ev3dev/events', 'ev3dev/rules', 'ev3dev/grid', 'ev3dev/planners',
+const LIBRARIES = ['ev3dev', 'ev3dev/sim', 'ev3dev/drive', 'ev3dev/events', 'ev3dev/rules', 'ev3dev/layers', 'ev3dev/grid', 'ev3dev/planners',
   'ev3dev/roadmap', 'ev3dev/golog', 'ev3dev/journal', 'ev3dev/localize', 'ev3dev/map', 'ev3dev/grid_belief', 'ev3dev/view'];
 
 const [modules, state] = process.argv.slice(2);

@@ -84,6 +84,9 @@ demo(rules_sumo, sumo, start).
 demo(clear_the_ring, cans, start).
 demo(sort_parcels, parcels, start).
 demo(goal, soccer, start).
+demo(three_places, [ bounds(0, 0, 220, 200), start(30, 30, 0),
+                     box(120, 70, 30, 20) ],
+     start).
 demo(rules_traffic_light, [ambient(20)], start).
 demo(plnxt_program, [ bounds(0, 0, 150, 150), start(40, 40, 30),
                       patch(black, [100-0, 150-0, 150-150, 100-150]) ],

@@ -46,7 +46,7 @@ native_does_nothing :-
 % What one wants to do, and the libraries for it. Each public library is here.
 task('Drive a robot with two wheels',
      [robot, drive, odometry, calibrate, jog]).
-task('Let a robot react', [rules, events, plnxt]).
+task('Let a robot react', [rules, layers, events, plnxt]).
 task('Run motors',
      [motors, motor_settings, dc_motors, servo_motors, gripper]).
 task('Ask sensors',

@@ -23,6 +23,7 @@ node playground/image.mjs "$modules" "$modules/state.prc"
 examples=(obstacle_avoidance square backtracking braitenberg line_following slalom traffic_light
     thermometer grid_navigation grid_lost lost explore_room rules_wander rules_light_seeker
     rules_line_follower rules_sumo rules_traffic_light rules_processes rules_bumper_car
+    three_places
     clear_the_ring sort_parcels goal
     golog_elevator golog_delivery golog_rescue golog_wumpus golog_classic
     compare_planners)

@@ -22,7 +22,7 @@ PAGES = WORK / "pages"
 SITE = ROOT / "dist/site"
 
 CHAPTERS = [
-    ("worlds", "Worlds and the simulator"), ("reactive", "Robots that react"),
+    ("worlds", "Worlds and the simulator"), ("reactive", "Robots that react"), ("layers", "Layers: a controller over time"),
     ("reasoning", "See Prolog think"),
     ("cognitive-robotics", "Golog"), ("localization", "Where am I?"), ("view", "The live view"),
     ("playground", "The playground"), ("brick", "On the brick"), ("safety", "Safety"),

@@ -75,6 +75,7 @@ unit(gripper, ['ev3dev/gripper']).
 unit(colors, ['ev3dev/colors']).
 unit(raw, ['ev3dev/raw']).
 unit(rules, ['ev3dev/rules']).
+unit(layers, ['ev3dev/layers']).
 unit(plnxt, ['ev3dev/plnxt']).
 unit(golog, ['ev3dev/golog']).
 unit(golog_classic, ['ev3dev/golog_classic']).

@@ -158,6 +158,10 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %       Why is fluent(Value, By). By is initially(Place), or the last entry of
 %       the history that set it, entry(Number, Entry, Place). Place is
 %       File:Line of what says so, or `none`.
+%     - a fluent of the run of library(ev3dev/layers) in this thread, or of
+%       the last one
+%       Why is fluent(Value, Since, Place): the time and the rule that
+%       assigned it.
 %
 %   Time is that of ev3_time/1. Causes are those of because/2, the innermost
 %   first, and at last called(Name/Arity), the predicate that wrote the
@@ -174,6 +178,10 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %       File:Line of its clause in which the action stands, or `none`; around
 %       it the conditions of the interrupts that the action belongs to; why a
 %       run stopped the motors at its end
+%     - layers(Steps), layers(ended)
+%       of library(ev3dev/layers): the proof of what sets the motor, steps
+%       by(Head, Layer, Place) for rules, and sense(Sense, Value); `ended` if
+%       control/1 has ended
 %     - plan(Step, Cell)
 %       of library(ev3dev/grid): `turn` or `move`
 %     - leg(Part)

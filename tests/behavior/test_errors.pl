@@ -25,6 +25,7 @@
 :- use_module(library(ev3dev/grid_belief)).
 :- use_module(library(ev3dev/localize)).
 :- use_module(library(ev3dev/map)).
+:- use_module(library(ev3dev/layers)).
 :- use_module(library(ev3dev/rules)).
 :- use_module(library(ev3dev/view)).
 
@@ -156,6 +157,11 @@ bad(behave([]), [[(_ :: true ~> true)]-1, [(a :: _ ~> true)]-1, [(a :: true ~> 7
 bad(behave([]), [[(a, sped(5) :: true ~> true)]-1]).
 bad(behave([], []), [a-1, [nowhere]-1, _-2, [sped(5)]-2, [timeout(-1)]-2, [timeout(a)]-2]).
 bad(behave([], []), [[period(-1)]-2, [on_error(stop)]-2, [until(7)]-2, [trace(7)]-2]).
+bad(control([]), [a-1, _-1, []-1, [sped(5)]-1, [timeout(a)]-1, [period(-1)]-1, [trace(7)]-1, [layers(a)]-1, [until(_)]-1]).
+bad(sense(time, _), [time-1]).
+bad(val(a, _), [a-1]).
+bad(was(_, _, _), [a-1]).
+bad(layer(a), [_-1, 7-1, a-1]).
 bad(become([]), [a-1, _-1, [nowhere]-1, []-1]).
 bad(state(_), [start-1]).
 bad(set_state(start), [_-1, start-1]).

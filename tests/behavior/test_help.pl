@@ -257,6 +257,7 @@ first_for(maze, 'ev3dev/grid:plan_and_go_to/2,3').
 first_for(display, 'ev3dev/console:screen_print/1').
 first_for(simulator, 'ev3dev/sim:sim_start/1,2').
 first_for(rules, 'ev3dev/rules:behave/1,2').
+first_for(controller, 'ev3dev/layers:control/1').
 first_for(event, 'ev3dev/events:event/2').
 first_for(battery, 'ev3dev:battery/2').
 :- end_tests(help).

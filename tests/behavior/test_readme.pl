@@ -42,7 +42,7 @@ test(each_file_they_link_to_is_there, [forall(linked(File))]) :-
 test(each_predicate_is_in_the_table, true(Missing == [])) :-
     read_file_to_string('docs/predicates.md', Text, []),
     findall(Name/Arity,
-            ( member(Library, [ev3dev, drive, events, rules, plnxt, golog,
+            ( member(Library, [ev3dev, drive, events, rules, layers, plnxt, golog,
                                odometry, calibrate, grid,
                                planners, roadmap, navigation, sim]),
               ( Library == ev3dev -> Alias = ev3dev ; Alias = ev3dev/Library ),

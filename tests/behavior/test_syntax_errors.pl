@@ -2,6 +2,7 @@
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/golog), [op(_, _, _)]).
 :- use_module(library(ev3dev/rules), [op(_, _, _)]).
+:- use_module(library(ev3dev/layers), [op(_, _, _)]).
 :- use_module(library(ev3dev/private/errors/message_text)).
 :- use_module(library(apply)).
 :- use_module(library(lists)).

@@ -185,6 +185,7 @@ test(is_used_by_a_library_that_is_loaded_first,
                        sim-[core, facts, sim_parts],
                        console-[core], jog-[core], colors-[core], raw-[core],
                        events-[core], rules-[core, events],
+                       layers-[core],
                        plnxt-[core, drive_parts, drive, events] ])),
        true(Result == 0-Used) ]) :-
     format(string(Goal),

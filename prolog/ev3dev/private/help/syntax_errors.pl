@@ -62,6 +62,8 @@ advice(Ts, [Format-[Operator, Library], nl,
     member(t(symbol, Operator, _, _), Ts),
     (   Operator == (~>)
     ->  Library = rules
+    ;   Operator == (<-)
+    ->  Library = layers
     ;   Operator == #,
         memberchk(t(name, proc, _, _), Ts),
         Library = golog_classic

@@ -2,7 +2,8 @@
           [ why_words//3,               % +Why, +What, +Ports
             without_names/2,            % +Term0, -Term
             command_words//2,           % +Command, +What
-            cause_words//1              % +Cause
+            cause_words//1,             % +Cause
+            step_words//1               % +Step
           ]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../native/native', [motor_counts_/3]).
@@ -390,11 +391,59 @@ cause(course(Course, Options)) -->
     [ 'move "'-[] ],
     all_of(Verbs),
     [ '"'-[] ].
+cause(layers(ended)) -->
+    !,
+    [ 'the layers have ended'-[] ].
+cause(layers(Steps)) -->
+    !,
+    steps(Steps).
 cause(replay(File)) -->
     !,
     [ 'replay of ~w'-[File] ].
 cause(Cause) -->
     [ '~p'-[Cause] ].
+
+steps([]) -->
+    [].
+steps([Step]) -->
+    !,
+    step_words(Step).
+steps([Step|Steps]) -->
+    step_words(Step),
+    [ '; '-[] ],
+    steps(Steps).
+
+%!  step_words(+Step)// is det.
+%
+%   A Step of the proof by which library(ev3dev/layers) has set a motor:
+%   by(Head, Layer, Place) or sense(Sense, Value).
+
+step_words(by(Head0, Layer, Place)) -->
+    { all_rounded(Head0, Head) },
+    [ '~p, layer ~w'-[Head, Layer] ],
+    (   { Place = File:Line }
+    ->  { file_base_name(File, Base) },
+        [ ' (~w:~d)'-[Base, Line] ]
+    ;   []
+    ).
+step_words(sense(Sense, Value0)) -->
+    { all_rounded(Value0, Value) },
+    [ '~p is ~p'-[Sense, Value] ].
+
+all_rounded(Term0, Term) :-
+    (   float(Term0)
+    ->  number_text(Term0, Term)
+    ;   compound(Term0)
+    ->  compound_name_arguments(Term0, Name, Arguments0),
+        each_rounded(Arguments0, Arguments),
+        compound_name_arguments(Term, Name, Arguments)
+    ;   Term = Term0
+    ).
+
+each_rounded([], []).
+each_rounded([Term0|Terms0], [Term|Terms]) :-
+    all_rounded(Term0, Term),
+    each_rounded(Terms0, Terms).
 
 all_of([]) -->
     [].
