@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import fs from 'node:fs';
 import net from 'node:net';
+import os from 'node:os';
 import path from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { browse, home, isFirefox, patient, until, violations } from '../view/session.mjs';
@@ -236,8 +237,27 @@ describe('the playground', () => {
     assert.ok([0, 1, 2].every((i) => Math.abs(past.robot.true[i] - crosses[0][i + 1]) < 0.2), JSON.stringify([past.robot, crosses[0]]));
     await view.evaluate(() => {
       document.getElementById('time-live').click();
-      document.getElementById('reasoning-open').click();
+      window.files = {};
+      let blob = null;
+      URL.createObjectURL = (made) => { blob = made; return '#'; };
+      HTMLAnchorElement.prototype.click = function keep() { blob.text().then((words) => { window.files[this.download] = words; }); };
+      for (const name of ['SVG', 'Save']) [...document.querySelectorAll('#reasoning button')].find((button) => button.textContent === name).click();
     });
+    const saved = await until(() => view.evaluate(() => window.files['reasoning.json'] && window.files['reasoning.svg'] && window.files), 'both files');
+    assert.match(saved['reasoning.svg'], /^<svg[^]*given up: [\d.]+ &#62; 60[^]*<image /);
+    // It opens beside another program in another world, and runs nothing.
+    await run(page, `${HEAD}:- use_module(library(ev3dev/sim)).\nstart :- sim_start(maze, [clock(virtual)]).\n`);
+    await until(async () => (await robot(page)).world === 'maze', 'another world');
+    await idle(page);
+    const { time } = await robot(page);
+    const kept = path.join(fs.mkdtempSync(path.join(os.tmpdir(), 'playground-')), 'run.json');
+    fs.writeFileSync(kept, saved['reasoning.json']);
+    await (await view.$('#reasoning input[type=file]')).uploadFile(kept);
+    await until(async () => (await shown()).reasoning.kept, 'the saved run');
+    fs.rmSync(path.dirname(kept), { recursive: true });
+    assert.equal((await shown()).reasoning.rows, 27);
+    assert.equal((await robot(page)).time, time);
+    await view.evaluate(() => document.getElementById('reasoning-open').click());
   });
 
   test('answers what a program reads, and what is typed as at the toplevel', { skip: isFirefox && 'a script of Firefox cannot paste' }, async () => {
