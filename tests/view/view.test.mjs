@@ -870,9 +870,24 @@ group('other worlds and robots', [`working_directory(_, '${folder}')`, ...ROOM],
     await shows(it.page, (t) => t.world.name === 'maze' && t.program.state === 'idle', 'the maze');
   });
 
-  test('are begun where no simulation runs', async () => {
+  test('leave their last picture and their run when they have ended', async () => {
+    await it.session.ask("sim_start(room, [clock(virtual)]), set_robot(5.6, 10.6, outB, outC), go_cm(30, 20)");
+    const { robot } = await shows(it.page, (s) => s.world.name === 'room' && s.time > 1.7 && s.program.state === 'idle', 'where it has gone');
     await it.session.ask('sim_stop');
-    await shows(it.page, (s) => s.source === 'none', 'nothing');
+    const ended = await shows(it.page, (s) => s.source === 'none', 'the end');
+    assert.deepEqual([ended.world.name, ended.robot.true, ended.bricks], ['room', robot.true, null]);
+    assert.equal(await it.page.$eval('#place-what', (words) => words.textContent), 'Ended · ');
+    assert.ok(await it.page.$eval('#world-empty', (words) => words.hidden));
+    await it.page.$eval('#time-slider', (slider) => {
+      slider.value = 0.5;
+      slider.dispatchEvent(new Event('input'));
+    });
+    const { past } = await shows(it.page, (s) => s.past, 'the past');
+    assert.ok(past.robot.true[1] < robot.true[1] - 5, JSON.stringify(past.robot));
+    await it.page.click('#time-live');
+  });
+
+  test('are begun where no simulation runs', async () => {
     await choose('world', 'grid');
     await shows(it.page, (s) => s.source === 'sim' && s.world.name === 'grid', 'a simulation');
   });

@@ -165,7 +165,7 @@ function heading() {
   const { frame: now } = model;
   const { program, clock: time } = now ?? {};
   const [what, name] = phase !== 'live' ? ['', ''] : {
-    sim: ['Simulation', model.name], brick: ['Robot', now?.tree], none: ['No robot yet', ''],
+    sim: ['Simulation', model.name], brick: ['Robot', now?.tree], none: model.ended ? ['Ended', model.name] : ['No robot yet', ''],
   }[now?.source] ?? ['Connected', ''];
   const doing = phase !== 'live' ? { waiting: 'Connecting', lost: 'Not connected', refused: 'Refused' }[phase]
     : program?.latched ? 'stopping' : time?.paused ? 'paused' : { running: 'a program runs', idle: 'ready' }[program?.state] ?? '';
@@ -188,7 +188,7 @@ function robots(bricks) {
 function emptiness() {
   const { frame: now } = model;
   const known = now?.robot?.true || now?.robot?.believed;
-  const words = now?.source === 'none' ? 'No robot and no simulation yet. The first use of a motor or sensor chooses one; the three dots begin a simulation.'
+  const words = model.ended ? '' : now?.source === 'none' ? 'No robot and no simulation yet. The first use of a motor or sensor chooses one; the three dots begin a simulation.'
     : !known && !model.world ? 'The place of the robot is unknown. set_robot/4 and pose/3 define it.' : '';
   $('world-empty').hidden = !words;
   text($('world-empty'), words);

@@ -32,6 +32,8 @@ export class Model {
 
   /** Takes a frame; answers which kept keys came with it. */
   take(frame) {
+    if (frame.source === 'none' && (this.simulated || this.ended)) return this.end(frame);
+    this.ended = false;
     if (frame.new) this.forget();
     const names = Object.keys(frame).filter((name) => !PASSING.has(name));
     for (const name of names) {
@@ -45,6 +47,23 @@ export class Model {
     for (const { id, ...place } of frame.things ?? []) Object.assign(this.world?.items.find((item) => item.id === id) ?? {}, at(place));
     if (frame.samples) this.append(frame.samples);
     for (const [name, time, value] of frame.values ?? []) this.value(name, time, value);
+    this.hear(frame);
+    return frame.new ? ALL : new Set(names);
+  }
+
+  /** The simulation has ended: its last picture stays, and its run can be looked at. */
+  end(frame) {
+    const { robot, see, beams, others, things, ports, brick, clock } = this.frame;
+    this.frame = { ...frame, new: false, robot, see, beams, others, things, ports, brick, clock: { ...clock, stands: true } };
+    const [first] = [!this.ended, this.ended = true];
+    this.bricks = null;
+    this.count += 1;
+    this.hear(frame);
+    return new Set(first ? ['bricks'] : []);
+  }
+
+  /** Takes what is new in the log. */
+  hear(frame) {
     const { newest } = this;
     this.fresh = (frame.log ?? []).filter((line) => !(line.n <= newest));
     this.missed = newest >= 0 && this.fresh.length ? this.fresh[0].n - newest - 1 : 0;
@@ -52,7 +71,6 @@ export class Model {
       this.log.push(...this.fresh);
       this.log.splice(0, Math.max(0, this.log.length - MOST_LOG));
     }
-    return frame.new ? ALL : new Set(names);
   }
 
   get newest() {
