@@ -4,7 +4,7 @@
     answer STOP: what has not answered after so many rounds computes without a pause, and is ended.
     Less is enough for one that has said nothing since it was asked for so many frames: it sends one
     a second at least. */
-const PATIENCE = { wait: 60, rounds: 4e7 };
+const PATIENCE = { wait: 40, rounds: 1.2e7 };
 const IMPATIENCE = { wait: 20, rounds: 1e6, frames: 6 };
 /** So long nobody may ask for a frame, as a view that is not seen does not; then the page does. */
 const UNSEEN = 250;
