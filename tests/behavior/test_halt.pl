@@ -153,7 +153,7 @@ test(a_program_that_is_told_to_end_stops_its_motors,
 
 test(a_move_that_a_signal_stops_does_not_end,
      [ forall(( tree(Tree), Tree \== simulator, member(Round, [1, 2, 3, 4, 5, 6]) )),
-       true(Status-Went == Expected-no) ]) :-
+       true(Went-Ends == no-true) ]) :-
     with_tree(Tree, [outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
               ( runs(outB),
                 runs(outC),
@@ -169,7 +169,9 @@ test(a_move_that_a_signal_stops_does_not_end,
                 sleep(PauseS),
                 process_kill(Pid, term),
                 end_program(Child, Status, Output) )),
-    Expected = exit(143),
+    % Killed by the watchdog, if a busy machine has not let Prolog end within
+    % 2 s.
+    ( memberchk(Status, [exit(143), killed(15)]) -> Ends = true ; Ends = Status ),
     ( sub_string(Output, _, _, _, "on") -> Went = on ; Went = no ).
 
 started(child(_, Out, _)) :-

@@ -304,7 +304,7 @@ test(by_nothing_it_succeeds, [forall(tree(Tree))]) :-
     with_drive(Tree, Gyro, ( turn(20, 0), wheels_near(0, 0, 1) )).
 test(starts_from_whatever_the_gyro_shows, [forall(behaving(Tree))]) :-
     gyro(Gyro),
-    with_robot(Tree, Gyro, ( turn(50, 100),
+    with_drive(Tree, Gyro, ( turn(50, 100),
                              gyro_angle(Before),
                              turn(40, 45),
                              gyro_angle(After),
