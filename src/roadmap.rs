@@ -5,19 +5,17 @@ use crate::glue::error::{wrong_because, wrong_value};
 use crate::glue::places::{place, place_term, places, places_term};
 use crate::glue::terms::{Prolog, unify_atom};
 use ev3_motion::{OUT_OF_RANGE, is_in_range};
-use ev3_roadmap::{
-    Fault, Map, Method, NoWay, Obstacle, Options, Path, Segment, Solution, plan, svg,
-};
+use ev3_roadmap::{Fault, Map, Method, NoWay, Obstacle, Options, Segment, Solution, plan, svg};
 use ev3_sim::facts::{Fact, Subject};
 use ev3_sim::{Item, Shape};
 use swipl::prelude::*;
 
 natives! {
     /// roadmap_(+Facts, +Start, +Goal, +Options, -Way): way is
-    /// way(Length, Points, Legs) or no_way(Why).
+    /// way(Length, Points, Legs, Lines) or no_way(Why).
     semidet fn "roadmap_"(context, facts, start, goal, options, way) as call("roadmap_path", 5) {
         match solve(&call, [facts, start, goal, options])?.1 {
-            Ok(found) => way.unify(&way_term(&call, &found.path)?),
+            Ok(found) => way.unify(&way_term(&call, &found)?),
             Err(why) => no_way(&call, way, why),
         }
     }
@@ -56,6 +54,8 @@ pub(crate) fn options_of<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult
         method: match &*call.text(&method)? {
             "visibility" => Method::Visibility,
             "prm" => Method::Prm,
+            "rrt" => Method::Rrt,
+            "rrt_bidirectional" => Method::RrtFromBoth,
             "rrt_star" => Method::RrtStar,
             _ => return wrong_value(call, "roadmap_method", &method),
         },
@@ -131,15 +131,16 @@ pub(crate) fn no_way<C: Prolog>(call: &Call<C>, term: &Term, why: NoWay) -> Prol
     term.unify(&no_way)
 }
 
-/// way(Length, Points, Legs)
-fn way_term<'a, C: Prolog>(call: &Call<'a, C>, path: &Path) -> PrologResult<Term<'a>> {
-    let context = call.context;
+/// way(Length, Points, Legs, Lines): Lines are how many the roadmap has.
+fn way_term<'a, C: Prolog>(call: &Call<'a, C>, found: &Solution) -> PrologResult<Term<'a>> {
+    let (context, path) = (call.context, &found.path);
+    let lines = i64::try_from(found.roadmap.len()).unwrap_or(i64::MAX);
     let legs = path.segments().iter().map(|leg| leg_term(call, leg));
     let legs = legs.collect::<PrologResult<Vec<_>>>()?;
     let list = context.new_term_ref();
     list.unify(legs.as_slice())?;
     let (length, points) = (path.length(), places_term(call, &path.points())?);
-    term! {context: way(#length, #&points, #&list)}
+    term! {context: way(#length, #&points, #&list, #lines)}
 }
 
 /// `line(From, To)` or `arc(From, To, Radius, Angle)`, as `arc_cm/3` takes them: the

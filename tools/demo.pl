@@ -68,6 +68,7 @@ demo(slalom, Poles, start) :-
 demo(remote_control, [start(0, 0, 0)], drive).
 demo(thermometer, room, thermometer).
 demo(compare_planners, grid, start).
+demo(pushed, grid, start).
 demo(lost, room, start).
 demo(grid_lost, grid, start).
 demo(explore_room, room, start).
@@ -125,6 +126,9 @@ prepare(golog_wumpus) :-
     !,
     user:cave(0-2, [2-0, 2-2], 1-2, [_, _|Patches]),
     forall(member(Patch, Patches), sim_add(Patch)).
+prepare(pushed) :-
+    !,
+    sim_at(6, sim_place(60, 140, 180)).
 prepare(rules_line_follower) :-
     !,
     sim_add(circle(150, 40, 4)),

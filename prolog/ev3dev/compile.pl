@@ -44,6 +44,7 @@ unit(drive, ['ev3dev/drive']).
 unit(tables, ['ev3dev/private/devices/sensor_table']).
 unit(facts, ['ev3dev/private/files/facts']).
 unit(planners_parts, ['ev3dev/private/grid/problem',
+                      'ev3dev/private/grid/policy',
                       'ev3dev/planners/search']).
 unit(grid_parts, ['ev3dev/private/grid/moves']).
 unit(grid, ['ev3dev/grid']).

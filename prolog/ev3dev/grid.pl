@@ -25,6 +25,7 @@
 :- reexport(private/grid/map,
             except([ grid_unknown/3, must_be_cell/1, must_be_state/2 ])).
 :- reexport(private/grid/problem).
+:- reexport(private/grid/policy).
 :- reexport(private/grid/place, [set_grid/1, grid_place/2, state_position/2]).
 
 /** <module> Finding a way over an unknown grid

@@ -6,9 +6,14 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/load/compiled, []).
+:- use_module(library(lists), [member/2]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/files/directory, [write_file/2]).
 :- use_module(private/explain/hints).
+:- use_module(private/grid/compass, [direction_heading/2]).
+:- use_module(private/grid/map,
+              [ free_cell/2, grid_bounds/5, grid_cell/2, grid_costs/4,
+                grid_neighbors/2, must_be_cell/1, must_be_state/2 ]).
 :- use_module(driver, []).
 :- use_module(private/checks/arguments, [option/3, take_options/4]).
 :- use_module(private/checks/places, [place/2]).
@@ -42,8 +47,14 @@ roadmap is made is the option method(Method):
   - prm
     Probabilistic roadmap: points are drawn at random, and each is joined with
     those next to it. Its work grows with the number of points.
+  - rrt
+    Rapidly exploring random tree: a tree grows from the start towards points
+    drawn at random, until it is at the goal.
+  - rrt_bidirectional
+    Two such trees, from the start and from the goal, until they meet.
   - rrt_star
-    RRT*: a tree grows from the start towards points drawn at random.
+    RRT*: a tree that is changed where that shortens a way. It draws all
+    points, and its ways come closer to the shortest with more of them.
 
 ## Maps {#roadmap-maps}
 
@@ -72,7 +83,8 @@ and Goal may be arithmetic expressions.
     The least radius of an arc. Where none fits the way has a corner, at which
     the robot turns on the spot. Default is 6: half an axle and a little.
   - samples(+Count)
-    How many points are drawn at random, at most 100000. Default is 500.
+    How many points are drawn at random, at most 100000. Default is 500. If
+    no way was found by then, there is none; no time limits it.
   - seed(+Integer)
     Where chance starts from. Default is 1. The same seed gives the same way.
 */
@@ -85,6 +97,9 @@ and Goal may be arithmetic expressions.
 %
 %     - length(-Cm)
 %       Of the way, along its arcs.
+%     - lines(-Count)
+%       How many lines the roadmap has: those that were looked at, and keep
+%       the distance.
 %
 %   Fails if no way was found, also if an obstacle is too near to Start or
 %   Goal; `debug(ev3dev)` prints why.
@@ -123,16 +138,18 @@ way(Map, Start0, Goal0, Options, Points, Legs) :-
     roadmap_facts(Map, Facts),
     place(Start0, Start),
     place(Goal0, Goal),
-    take_options([length], Options, Own, Rest),
+    take_options([length, lines], Options, Own, Rest),
     roadmap_options(Rest, Native),
     roadmap_(Facts, Start, Goal, Native, Found),
     (   Found = no_way(Why)
     ->  explain("no way from ~p to ~p: ~w", [Start, Goal, Why]),
         fail
-    ;   Found = way(Length0, Points, Legs)
+    ;   Found = way(Length0, Points, Legs, Lines0)
     ),
     option(length(Length), Own, _),
-    Length = Length0.
+    Length = Length0,
+    option(lines(Lines), Own, _),
+    Lines = Lines0.
 
 %!  roadmap_svg(+Map, +Start, +Goal, +File, +Options) is semidet.
 %
@@ -152,3 +169,74 @@ roadmap_svg(Map, Start0, Goal0, File, Options) :-
 
 written(Text, Stream) :-
     write(Stream, Text).
+
+% ---------------- BESIDE THE PLANNERS OF GRIDS
+
+%   roadmap(Method) of compare_planners/3. A corridor is one cell wide, and
+%   the robot a little narrower. The middle of the cell [0,0] is at 0, 0.
+
+:- multifile ev3dev_comparison:roadmap_run/6.
+
+ev3dev_comparison:roadmap_run(Method, Map, Start, Goal, Facts, Path) :-
+    must_be_state(Map, Start),
+    Start = state([SX, SY], Direction),
+    Goal = state([GX, GY], _),
+    must_be_cell([GX, GY]),
+    grid_bounds(Map, X1, Y1, X2, Y2),
+    Left is 20*X1 - 10,
+    Low is 20*Y1 - 10,
+    Right is 20*X2 + 10,
+    High is 20*Y2 + 10,
+    findall(box(X, Y, 20, 20),
+            ( grid_cell(Map, Cell),
+              \+ free_cell(Map, Cell),
+              Cell = [CX, CY],
+              X is 20*CX,
+              Y is 20*CY ),
+            Boxes),
+    FromX is 20*SX,
+    FromY is 20*SY,
+    ToX is 20*GX,
+    ToY is 20*GY,
+    statistics(cputime, Seconds0),
+    (   way([bounds(Left, Low, Right, High)|Boxes], FromX-FromY, ToX-ToY,
+            [ method(Method), radius(8), margin(1), samples(5000),
+              length(Length), lines(Lines) ], Points, Legs)
+    ->  statistics(cputime, Seconds1),
+        length(Legs, Steps),
+        direction_heading(Direction, Heading),
+        turned(Legs, Heading, 0, Degrees),
+        grid_costs(Map, Move, _, Turn),
+        grid_neighbors(Map, Neighbors),
+        Cost is round(Length * Move / 20 + Degrees * Neighbors * Turn / 360),
+        Rest = [steps(Steps), cost(Cost)],
+        findall([PX, PY],
+                ( member(X-Y, Points), PX is X / 20, PY is Y / 20 ),
+                Path)
+    ;   statistics(cputime, Seconds1),
+        Lines = 0,
+        Rest = [],
+        Path = [[SX, SY]]
+    ),
+    Seconds is Seconds1 - Seconds0,
+    Facts = [replans(0), expanded(Lines), seconds(Seconds)|Rest].
+
+%   The degrees that the robot turns on the spot: before and between lines.
+
+turned([], _, Degrees, Degrees).
+turned([Leg|Legs], Heading0, Degrees0, Degrees) :-
+    ends(Leg, Begins, Ends),
+    Turn0 is Begins - Heading0,
+    Turn is abs(Turn0 - 360*round(Turn0/360)),
+    Degrees1 is Degrees0 + Turn,
+    turned(Legs, Ends, Degrees1, Degrees).
+
+ends(line(From, To), Heading, Heading) :-
+    along(From, To, Heading).
+ends(arc(From, To, Radius, Angle), Begins, Ends) :-
+    along(From, To, Chord),
+    Begins is Chord - sign(Radius) * Angle / 2,
+    Ends is Chord + sign(Radius) * Angle / 2.
+
+along(X1-Y1, X2-Y2, Heading) :-
+    Heading is atan2(X2 - X1, Y2 - Y1) * 180 / pi.

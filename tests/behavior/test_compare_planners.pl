@@ -3,6 +3,7 @@
 :- asserta(user:file_search_path(library, prolog)).
 :- asserta(user:file_search_path(example, examples)).
 :- use_module(library(ev3dev/planners)).
+:- use_module(library(ev3dev/roadmap), []).
 
 :- initialization(load_files(compare:example(compare_planners), [])).
 
@@ -48,6 +49,42 @@ test(repairing_expands_least) :-
     option(expanded(R), Repaired),
     option(expanded(A), Again),
     R < A.
+test(roadmaps_are_beside_them,
+     true(Costs == [visibility-true, prm-true, rrt-true, rrt_bidirectional-true, rrt_star-true])) :-
+    findall(roadmap(M), member(M, [visibility, prm, rrt, rrt_bidirectional, rrt_star]), Roadmaps),
+    compared([known(true), planners([a_star|Roadmaps])], Output, [run(a_star, Facts)|Runs]),
+    option(cost(Best), Facts),
+    % Around corners it is shorter, but chance makes detours.
+    findall(M-Is,
+            ( member(run(roadmap(M), Facts1), Runs),
+              option(cost(Cost), Facts1), option(expanded(E), Facts1), option(steps(S), Facts1),
+              ( Cost > 0.6 * Best, Cost < 1.3 * Best, E >= S, S > 4 -> Is = true ; Is = Cost ) ),
+            Costs),
+    once(sub_string(Output, _, _, _, "roadmap(rrt_bidirectional) ")).
+test(a_roadmap_without_a_way_has_no_cost, Missing == true) :-
+    grid_map([rows([".#.", "^#."])], Map),
+    with_output_to(string(_),
+                   compare_planners(Map, state([2,0], _),
+                                    [runs([run(_, Facts)]), planners([roadmap(rrt)])])),
+    ( option(cost(_), Facts) -> Missing = false ; Missing = true ).
+test(a_roadmap_counts_the_turns_on_the_spot, Cost == 80) :-
+    grid_map([rows(["....", "...."])], Map),
+    with_output_to(string(_),
+                   compare_planners(Map, state([0,0], _),
+                                    [ runs([run(_, Facts)]), planners([roadmap(rrt)]),
+                                      start(state([3,0], [1,0])) ])),
+    % 60 cm, and half a turn before
+    option(cost(Cost), Facts).
+test(a_roadmap_is_drawn, Count == 1) :-
+    tmp_file(planners, File),
+    setup_call_cleanup(
+        true,
+        ( compared([planners([roadmap(rrt)]), svg(File)], _, _),
+          read_file_to_string(File, Text, []) ),
+        delete_file(File)),
+    occurrences(Text, "<polyline", Count).
+test(a_roadmap_of_no_method, error(domain_error(roadmap_method, x), _)) :-
+    compared([planners([roadmap(x)])], _, _).
 test(only_those_asked_for, Planners == [greedy_best_first, a_star]) :-
     compared([planners([greedy_best_first, a_star])], _, Runs),
     findall(Planner, member(run(Planner, _), Runs), Planners).

@@ -207,6 +207,8 @@ bad(plan(a_star, problem(0, 1, []), _, _), [_-1, nix-1, _-2, 7-2]).
 bad(planning(a_star, problem(0, 1, []), _), [_-1, nix-1, _-2, 7-2]).
 bad(replan(0, [], _, a, _), [_-4, a-4]).
 bad(grid_map([], _), [a-1, [colour(red)]-1, [neighbors(5)]-1]).
+bad(grid_policy([goal([1, 1])], _), [a-1, _-1, []-1, [goal(a)]-1, [goal(_)]-1, [goal([1, 1]), method(up)]-1, [goal([1, 1]), colour(red)]-1]).
+bad(grid_action(policy(value_iteration, map(bounds(0, 0, 0, 0), 4, costs(1, 1, 1), t, any, none), state([0, 0], _), t), state([0, 0], [0, 1]), _, _), [a-1, _-1, a-2, _-2]).
 bad(indigolog([]), [_-1, fly-1]).
 bad(roadmap_svg([], 0-0, 9-9, 'roadmap.svg', []), [a-1, foo-2, foo-3, _-4, [x(1)]-5]).
 bad(roadmap_legs([], 0-0, 9-9, _, []), [a-1, foo-2, foo-3, [x(1)]-5]).

@@ -75,14 +75,27 @@ test(corners_may_be_lists_and_clockwise, [forall(member(Polygon,
     roadmap_path([polygon(Polygon)], [0, 50], [100, 50], Points1),
     same_way(Points, Points1).
 test(each_method_finds_a_way,
-     [forall(member(Method, [visibility, prm, rrt_star]))]) :-
+     [forall(member(Method, [visibility, prm, rrt, rrt_bidirectional, rrt_star]))]) :-
     roadmap_path(room, 40-40, 270-220, Points,
                  [method(Method), length(Length)]),
     Points = [40.0-40.0|_],
     last(Points, 270.0-220.0),
     Length < 320.
+test(trees_count_their_lines, true(One-Both == true-true)) :-
+    Horseshoe = polygon([ 0-0, 40-0, 40-5, 5-5, 5-95, 95-95, 95-5, 55-5,
+                          55-0, 100-0, 100-100, 0-100 ]),
+    findall(Method-Count,
+            ( member(Method, [rrt, rrt_bidirectional, rrt_star]),
+              roadmap_path([Horseshoe], 20-80, 50-(-50), _,
+                           [method(Method), radius(5), margin(0), samples(3000), lines(Count)]) ),
+            [rrt-N1, rrt_bidirectional-N2, rrt_star-N3]),
+    ( N2 < N1 -> Both = true ; Both = N2-N1 ),
+    ( N1 < N3 -> One = true ; One = N1-N3 ).
+test(no_way_in_so_many_samples, [fail, forall(member(Method, [rrt, rrt_bidirectional, rrt_star]))]) :-
+    roadmap_path([bounds(0, 0, 100, 100), wall(50, 0, 50, 100)], 20-20, 80-80, _,
+                 [method(Method), samples(3000)]).
 test(the_same_seed_gives_the_same_way,
-     [forall(member(Method, [prm, rrt_star]))]) :-
+     [forall(member(Method, [prm, rrt, rrt_bidirectional, rrt_star]))]) :-
     Options = [method(Method), margin(20)],
     roadmap_path(room, 40-40, 270-220, Points1, [seed(7)|Options]),
     roadmap_path(room, 40-40, 270-220, Points2, [seed(7)|Options]),

@@ -7,9 +7,9 @@
 //! 1. a **roadmap**, straight lines that keep the distance, and the shortest
 //!    way along it: the *visibility graph* joins the corners of the obstacles
 //!    blown up by the distance, and so has the shortest way there is; a
-//!    *probabilistic roadmap* joins points drawn at random, and *RRT\**
-//!    grows a tree from the start. These two do not mind how many corners the
-//!    obstacles have;
+//!    *probabilistic roadmap* joins points drawn at random, *RRT*
+//!    grows a tree from the start, or a second one from the goal, and *RRT\** makes
+//!    its ways shorter. These do not mind how many corners the obstacles have;
 //! 2. **smoothing**: detours are cut short, and corners become arcs that keep
 //!    the distance, too, as wide as fits.
 //!

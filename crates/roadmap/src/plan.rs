@@ -49,7 +49,9 @@ pub fn plan(map: &Map, start: Point, goal: Point, options: &Options) -> Result<S
     let search = match options.method {
         Method::Visibility => visibility::search,
         Method::Prm => prm::search,
-        Method::RrtStar => rrt::search,
+        Method::Rrt => rrt::search,
+        Method::RrtFromBoth => rrt::search_from_both,
+        Method::RrtStar => rrt::search_star,
     };
     let (points, searched) = search(map, &sought);
     let way = searched.way.ok_or(NoWay::None)?;

@@ -16,7 +16,11 @@ pub enum Method {
     Visibility,
     /// Points drawn at random, each joined with those next to it.
     Prm,
-    /// A tree that grows from the start.
+    /// A tree that grows from the start until it is at the goal.
+    Rrt,
+    /// Two trees, from the start and from the goal, until they meet.
+    RrtFromBoth,
+    /// A tree that grows from the start, and is rewired where that shortens a way.
     RrtStar,
 }
 

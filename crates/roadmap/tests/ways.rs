@@ -11,7 +11,7 @@ use ev3_roadmap::{
 use proptest::prelude::*;
 
 const KEEP: f64 = 8.0;
-const METHODS: [Method; 3] = [Method::Visibility, Method::Prm, Method::RrtStar];
+const DRAWN: [Method; 4] = [Method::Prm, Method::Rrt, Method::RrtFromBoth, Method::RrtStar];
 
 /// An obstacle, and as it is measured here: by itself, not by the crate.
 #[derive(Clone, Debug)]
@@ -156,7 +156,7 @@ proptest! {
     fn no_way_is_nearer_than_the_radius(
         things in prop::collection::vec(thing(), 1..9),
         (x, y, u, v) in (-10.0..210.0_f64, -10.0..210.0_f64, -10.0..210.0_f64, -10.0..210.0_f64),
-        method in prop::sample::select(METHODS.to_vec()),
+        method in prop::sample::select([&[Method::Visibility], &DRAWN[..]].concat()),
         arc_radius in 0.5..30.0_f64,
         seed in any::<u64>(),
         bounded in any::<bool>(),
@@ -178,7 +178,7 @@ proptest! {
     fn chance_finds_no_way_where_there_is_none_and_none_that_is_shorter(
         things in prop::collection::vec(thing(), 1..7),
         (x, y, u, v) in (0.0..200.0_f64, 0.0..200.0_f64, 0.0..200.0_f64, 0.0..200.0_f64),
-        method in prop::sample::select(vec![Method::Prm, Method::RrtStar]),
+        method in prop::sample::select(DRAWN.to_vec()),
         seed in any::<u64>(),
     ) {
         let map = map_of(&things, Some(BOUNDS));
@@ -300,7 +300,7 @@ fn the_same_seed_gives_the_same_way() {
     let wall = |x: f64, low: f64, high: f64| Obstacle::wall([x, low], [x, high], 2.0).unwrap();
     let map = Map::new(vec![wall(50.0, -20.0, 150.0), wall(120.0, 50.0, 220.0)], Some(BOUNDS));
     let map = map.unwrap();
-    for method in [Method::Prm, Method::RrtStar] {
+    for method in DRAWN {
         let way = |seed| {
             let options = Options { method, seed, ..Options::default() };
             plan(&map, [10.0, 10.0], [200.0, 200.0], &options).unwrap().path
@@ -322,6 +322,38 @@ fn more_samples_come_closer_to_the_shortest() {
     let best = raw(Method::Visibility, 0);
     for method in [Method::Prm, Method::RrtStar] {
         assert!(raw(method, 3000) < 1.05 * best, "{method:?} {} {best}", raw(method, 3000));
+    }
+}
+
+#[test]
+fn a_tree_that_is_not_rewired_is_done_when_it_is_there() {
+    let bar = Obstacle::rectangle([100.0, 100.0], 120.0, 10.0, 20.0).unwrap();
+    let map = Map::new(vec![bar], Some(BOUNDS)).unwrap();
+    let lines = |method, seed| {
+        let options = Options { method, samples: 2000, seed, ..Options::default() };
+        plan(&map, [100.0, 50.0], [100.0, 150.0], &options).unwrap().roadmap.len()
+    };
+    let all = |method| (0..20).map(|seed| lines(method, seed)).sum::<usize>();
+    let (one, both, star) = (all(Method::Rrt), all(Method::RrtFromBoth), all(Method::RrtStar));
+    // Two trees see each other sooner than one sees the goal.
+    assert!(5 * both < 4 * one, "{both} lines of two trees, {one} of one");
+    assert!(10 * one < star, "{one} lines, {star} of RRT*");
+}
+
+#[test]
+fn a_roadmap_of_trees_has_its_way() {
+    let bar = Obstacle::rectangle([100.0, 100.0], 120.0, 10.0, 20.0).unwrap();
+    let map = Map::new(vec![bar], Some(BOUNDS)).unwrap();
+    for method in [Method::Rrt, Method::RrtFromBoth, Method::RrtStar] {
+        for seed in 0..20 {
+            let options = Options { method, seed, ..Options::default() };
+            let found = plan(&map, [100.0, 50.0], [100.0, 150.0], &options).unwrap();
+            for leg in found.raw.windows(2) {
+                let is_leg =
+                    |line: &[Point; 2]| line == &[leg[0], leg[1]] || line == &[leg[1], leg[0]];
+                assert!(found.roadmap.iter().any(is_leg), "{method:?} {seed}: {leg:?}");
+            }
+        }
     }
 }
 
@@ -363,6 +395,15 @@ fn why_there_is_no_way() {
     assert_eq!(why([50.0, 50.0], [50.0, -50.0], 7.0), None, "through the gap of 15 cm");
     assert_eq!(why([50.0, 50.0], [50.0, -50.0], 8.0), Some(NoWay::None));
     assert_eq!(why([50.0, 90.0], [50.0, -50.0], 7.0), Some(NoWay::StartBlocked));
+    for method in DRAWN {
+        let drawn = |keep, samples| {
+            let options = Options { keep, samples, method, ..Options::default() };
+            plan(&map, [20.0, 50.0], [50.0, -50.0], &options).err()
+        };
+        assert_eq!(drawn(4.0, 3000), None, "{method:?}");
+        assert_eq!(drawn(8.0, 3000), Some(NoWay::None), "{method:?}");
+        assert_eq!(drawn(4.0, 0), Some(NoWay::None), "{method:?} without points");
+    }
     assert_eq!(why([50.0, 50.0], [2.0, 50.0], 7.0), Some(NoWay::GoalBlocked));
 }
 

@@ -38,7 +38,11 @@
 %       The first state. Default is the start drawn in the map's rows, else
 %       `state([0,0], [0,1])`.
 %     - planners(+Planners)
-%       The planners to compare. Default is all of planner/1.
+%       The planners to compare. Default is all of planner/1. One may also be
+%       roadmap(Method), a method of library(ev3dev/roadmap), which must be
+%       loaded: it goes in any direction, between cells of 20 cm, and knows
+%       the whole map. Then `expanded` are the lines of the roadmap, `steps`
+%       those of the way, and `cost` is that of its length and turns.
 %     - known(+Boolean)
 %       If `true`, the driver knows the whole map from the start. Default is
 %       `false`.
@@ -83,7 +87,24 @@ start(Options, Map, Start) :-
     ).
 
 planner_run(Task, Planner, run(Planner, Facts)) :-
-    drive(Task, Planner, [], Facts, _).
+    ran(Task, Planner, [], Facts, _).
+
+%!  roadmap_run(+Method, +Map, +Start, +Goal, -Facts, -Path) is semidet.
+%
+%   What library(ev3dev/roadmap), which adds the clause, does in the place of
+%   drive/5. Path is a list of places, in cells.
+
+:- multifile roadmap_run/6.
+
+ran(Task, Planner, Watch, Facts, Path) :-
+    (   nonvar(Planner),
+        Planner = roadmap(Method),
+        Task = task(Map, _, Start, Goal),
+        roadmap_run(Method, Map, Start, Goal, Facts0, Path0)
+    ->  Facts = Facts0,
+        Path = Path0
+    ;   drive(Task, Planner, Watch, Facts, Path)
+    ).
 
 %   Counting takes time, so a second drive over the same path counts the
 %   cells.
@@ -95,7 +116,7 @@ planner_run(Task, Planner, run(Planner, Facts)) :-
 planner_panel(Task, run(Planner, Facts),
               panel(Planner, Facts, Path, Cells)) :-
     retractall(expanded(_)),
-    drive(Task, Planner, [expanding(ev3dev_comparison:note)], _, Path),
+    ran(Task, Planner, [expanding(ev3dev_comparison:note)], _, Path),
     findall(Cell, retract(expanded(Cell)), Noted),
     msort(Noted, Cells).
 

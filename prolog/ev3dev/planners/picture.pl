@@ -135,7 +135,7 @@ draw_path(Out, Map, Path) :-
     format(Out, "<polyline fill=\"none\" stroke=\"#d80\" \c
                  stroke-width=\"3\" stroke-linejoin=\"round\" points=\"", []),
     forall(member(Cell, Path),
-           ( middle(Map, Cell, X, Y), format(Out, "~d,~d ", [X, Y]) )),
+           ( middle(Map, Cell, X, Y), format(Out, "~0f,~0f ", [X, Y]) )),
     format(Out, "\"/>~n", []).
 
 draw_mark(Out, Map, Cell, Color) :-

@@ -101,6 +101,7 @@ allowed(motor_run,          'run(Port, Speed) is expected').
 allowed(motor_state,        [ running, ramping, holding, overloaded,
                               stalled ]).
 allowed(neighbors,         [4, 8]).
+allowed(policy_method,     [value_iteration, navigation_function]).
 allowed(nonnegative_number, 'the number must be 0 or more').
 allowed(note,               'a note must have a name such as c4 or fs5').
 allowed(note_length,        [whole, half, quarter, eighth, sixteenth]).
@@ -116,7 +117,8 @@ allowed(polarity,           [normal, inversed]).
 allowed(port,
         'a port must be one of in1 to in4 and outA to outD').
 allowed(positive_number,    'the number must be above 0').
-allowed(roadmap_method,     [visibility, prm, rrt_star]).
+allowed(roadmap_method,
+        [visibility, prm, rrt, rrt_bidirectional, rrt_star]).
 allowed(screen_bits,        [1, 32]).
 allowed(screen_color,       [black, dark_gray, light_gray, white]).
 allowed(seconds,            'a time in seconds must be 0 or more').

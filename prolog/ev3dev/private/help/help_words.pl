@@ -104,6 +104,7 @@ words_for([event, react, reactive, when, whenever, interrupt, callback],
 words_for([parallel, concurrent, simultaneous, same, thread, task],
           [both, race, on, every, motors_run, motors_turn]).
 words_for([behavior, rule, subsumption, state], [behave, set_state, become]).
+words_for([policy, feedback], [grid_policy, grid_action]).
 words_for([controller, layer, fluent], [control, layer, val, was]).
 words_for([loop, repeat, forever, endless, periodic],
           [every, run_forever, behave]).
