@@ -349,7 +349,9 @@ no_line(Line) :-
              "place 1 2 0'a", "place 1e400 2 3", "place 1 2  3",
              "place 1 2 1r3", "pace x3", "step 0", "step -1", "step 1000",
              "press escape", "unplug outE", "plug in1 'halt'",
-             "add halt 1 2 3", "add box 1 2", "move 1.5 2 3", "save ../x",
+             "add halt 1 2 3", "add box 1 2", "add box 1 2 3 4 mass 1",
+             "add beacon 1 2 mass 3", "add circle 1 2 3 mass", "add mass 3",
+             "add circle 1 2 3 mass a", "move 1.5 2 3", "save ../x",
              "jog 101 0", "jog 10", "reset now", "choose room",
              "choose world room", "choose lamp pack room", "begin room",
              "write ../x floor(red).", "worlds 1" ]).
@@ -760,6 +762,10 @@ hand("hold in1", "refused").
 hand("free in1", "refused").
 hand("add box 150 150 20 10 45", "done").
 hand("add box 40 40 20 20", "refused").
+hand("add box 150 150 6 6 0 mass 0.05", "done").
+hand("add circle 150 150 6 mass 0.05", "done").
+hand("add circle 150 150 6 mass 0", "refused").
+hand("add box 40 40 6 6 0 mass 0.05", "refused").
 hand("add beacon 10 10 7", "refused").
 hand("move 99 10 10", "refused").
 hand("remove 99", "refused").

@@ -1665,6 +1665,34 @@ group('a thing that a robot pushes', [PUSHED, 'use_module(library(ev3dev/gripper
     assert.equal(await it.session.ask('\\+ sim_held(_)'), '');
   });
 
+  test('is drawn with B, and another one that stands fast', async () => {
+    const moves = () => it.page.click('#inspector button');
+    const said = (words) => until(async () => await it.page.$eval('#inspector', (box) => box.querySelector('p')?.textContent) === words, words);
+    const drawn = async (from, to) => {
+      await drag(it.page, from, to);
+      const middle = from.map((n, i) => (n + to[i]) / 2);
+      const { world } = await shows(it.page, (s) => s.world.items.some(({ x, y }) => near(x, middle[0], 1) && near(y, middle[1], 1)), 'the box');
+      return world.items.find(({ x, y }) => near(x, middle[0], 1) && near(y, middle[1], 1)).traits?.mass;
+    };
+    await it.page.focus('#world');
+    await it.page.keyboard.press('b');
+    await said('Draw a box');
+    await moves();
+    await said('Draw a box that robots push');
+    assert.equal(await it.page.$eval('#inspector button', (button) => button.getAttribute('aria-pressed')), 'true');
+    assert.equal(await drawn([-40, 84], [-30, 94]), 0.05);
+    await it.page.keyboard.press('b');
+    await moves();
+    assert.equal(await drawn([-40, 58], [-30, 68]), undefined);
+    assert.equal(await it.session.ask('sim_things(Things), length(Things, 2)'), '');
+    for (const y of [89, 63]) {
+      await it.page.mouse.click(...await pixel(it.page, -35, y));
+      await shows(it.page, (s) => s.selected === 'box', 'a chosen box');
+      await it.page.keyboard.press('Delete');
+    }
+    await shows(it.page, (s) => s.world.items.length === 2, 'neither of them');
+  });
+
   test('is drawn in the editor, as a thing that moves', async () => {
     await it.page.click('#edit');
     const edits = (test, what) => shows(it.page, (s) => s.edits && s.edits.waits === 0 && test(s.edits), what);
@@ -1681,6 +1709,16 @@ group('a thing that a robot pushes', [PUSHED, 'use_module(library(ev3dev/gripper
     await edits((e) => e.selected.traits?.mass === 0.05, 'a mass');
     await field('Rolls');
     await edits((e) => e.selected.traits.rolls, 'a ball');
+    const paint = (name) => it.page.evaluate((chosen) => {
+      const select = document.querySelector('.field.color select');
+      select.value = [...select.options].find(({ text }) => text === chosen).value;
+      select.dispatchEvent(new Event('change'));
+    }, name);
+    await paint('blue');
+    await edits((e) => e.selected.traits.color === '#143c96', 'a blue ball');
+    assert.match(await it.page.$eval('#editor textarea', (text) => text.value), /circle\(-30, 90, 4, \[mass\(0\.05\), rolls\(true\), color\(blue\)\]\)/);
+    await paint('none');
+    await edits((e) => e.selected.traits.color === undefined, 'no color');
     const facts = await it.page.$eval('#editor textarea', (text) => text.value);
     assert.match(facts, /circle\(-30, 90, 4, \[mass\(0\.05\), rolls\(true\)\]\)/);
     assert.match(facts, /box\(\S+ \S+ 6, 6, \S+ \[mass\(0\.05\), color\('#ff0000'\), name\('cargo'\)\]\)/);

@@ -494,7 +494,7 @@ export class Editor {
     const id = `edit-${i}`;
     const value = field.get(thing);
     const input = field.kind === 'color'
-      ? el('select', { id }, ...[...new Set([...COLORS.keys(), named(value)])].map((name) => el('option', { value: COLORS.get(name) ?? name, selected: named(value) === name }, name)))
+      ? el('select', { id }, ...[...new Set([...field.none ?? [], ...COLORS.keys(), named(value)])].map((name) => el('option', { value: COLORS.get(name) ?? name, selected: named(value) === name }, name || 'none')))
       : field.kind === 'switch' ? el('input', { id, type: 'checkbox', checked: value === true })
       : el('input', { id, type: 'text', inputMode: field.kind === 'places' ? 'text' : 'decimal', autocomplete: 'off', spellcheck: false, value: field.kind === 'places' ? value.map((place) => place.join(' ')).join(', ') : String(value ?? '') });
     input.addEventListener('change', () => {

@@ -42,18 +42,24 @@ const trait = (words, name, unit, kind) => ({
   set: (thing, value) => ({ ...thing, traits: { ...thing.traits, [name]: value } }),
 });
 export const isThing = ({ traits }) => traits?.mass !== undefined;
+/** The mass in kg of a thing that is drawn. */
+export const LIGHT = 0.05;
 const MOVES = {
   words: 'Moves', kind: 'switch', get: isThing,
-  set: (thing, on) => ({ ...thing, traits: { ...thing.traits, ...(on ? { mass: 0.05 } : { mass: undefined, friction: undefined, rolls: undefined, bounces: undefined }) } }),
+  set: (thing, on) => ({ ...thing, traits: { ...thing.traits, ...(on ? { mass: LIGHT } : { mass: undefined, friction: undefined, rolls: undefined, bounces: undefined }) } }),
 };
 const MASS = trait('Mass', 'mass', 'kg', 'number');
 const ROLLS = trait('Rolls', 'rolls', '', 'switch');
+const OWN_COLOR = {
+  words: 'Color', kind: 'color', none: [''], get: (thing) => thing.traits?.color ?? '',
+  set: (thing, value) => ({ ...thing, traits: { ...thing.traits, color: value || undefined } }),
+};
 const weight = (thing) => (isThing(thing) ? ` of ${thing.traits.mass} kg` : '');
 
 /** The traits as an argument of the fact, if there are any. */
 const options = ({ traits = {} }) => {
   const value = (it) => (typeof it === 'string' ? `'${it.replace(/[\\']/g, '\\$&')}'` : it);
-  const all = Object.keys(traits).filter((name) => (traits[name] ?? false) !== false).map((name) => `${name}(${value(traits[name])})`);
+  const all = Object.keys(traits).filter((name) => (traits[name] ?? false) !== false).map((name) => `${name}(${name === 'color' ? shade(traits.color) : value(traits[name])})`);
   return all.length ? [`[${all.join(', ')}]`] : [];
 };
 
@@ -120,7 +126,7 @@ export const KINDS = {
     outline: corners,
     closed: true,
     words: (box) => `Box ${box.w} × ${box.d}${weight(box)} at ${box.x}, ${box.y}`,
-    fields: [...AT, number('Width', 'w'), number('Depth', 'd'), HEADING, MOVES, MASS],
+    fields: [...AT, number('Width', 'w'), number('Depth', 'd'), HEADING, OWN_COLOR, MOVES, MASS],
     between: (a, b) => ({ kind: 'box', x: cm((a[0] + b[0]) / 2), y: cm((a[1] + b[1]) / 2), w: cm(Math.abs(a[0] - b[0])), d: cm(Math.abs(a[1] - b[1])), h: 0 }),
     move: moved,
     turn: turned,
@@ -142,7 +148,7 @@ export const KINDS = {
     solid: 'block',
     path: (path, { r }, at) => path.arc(at.x, at.y, r, 0, 7),
     words: (circle) => `Circle of radius ${circle.r}${weight(circle)} at ${circle.x}, ${circle.y}`,
-    fields: [...AT, number('Radius', 'r'), MOVES, MASS, ROLLS],
+    fields: [...AT, number('Radius', 'r'), OWN_COLOR, MOVES, MASS, ROLLS],
     between: (a, b) => ({ kind: 'circle', x: a[0], y: a[1], r: Math.max(1, Math.round(far(a, b))) }),
     move: moved,
     turn: null,

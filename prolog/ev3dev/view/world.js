@@ -2,9 +2,9 @@
 // in picture.js, which part of it in camera.js; here are the frames, and the hands.
 
 import { along } from './canvas.js';
-import { $, attribute, el, num, text, toggle } from './dom.js';
+import { $, attribute, el, num, pressed, text, toggle } from './dom.js';
 import { Picture, between } from './picture.js';
-import { KINDS, TURN, cm, isThing } from './things.js';
+import { KINDS, LIGHT, TURN, cm, isThing } from './things.js';
 
 export const LAYERS = [
   ['floor', 'Centimeter grid'], ['trail', 'Trail'], ['believed', 'Believed pose'],
@@ -26,6 +26,7 @@ export class World extends Picture {
     this.tool = 'move';
     this.following = false;
     this.measured = null;
+    this.pushable = false; // whether robots push a box that is added
     this.drag = null;
     this.lifted = null;
     this.selected = null;
@@ -329,7 +330,7 @@ export class World extends Picture {
       const size = (a, b) => Math.abs(a - b);
       const [w, d] = this.moved ? [size(drag.from[0], drag.to[0]), size(drag.from[1], drag.to[1])] : [20, 20];
       const at = this.moved ? [(drag.from[0] + drag.to[0]) / 2, (drag.from[1] + drag.to[1]) / 2] : drag.from;
-      if (w >= 0.5 && d >= 0.5) this.send(`add box ${cm(at[0])} ${cm(at[1])} ${cm(w)} ${cm(d)}`);
+      if (w >= 0.5 && d >= 0.5) this.send(`add box ${cm(at[0])} ${cm(at[1])} ${cm(w)} ${cm(d)}${this.pushable ? ` 0 mass ${LIGHT}` : ''}`);
       this.use('move');
     } else if (drag.kind === 'robot' && this.moved) {
       this.put(drag.at, 'robot');
@@ -403,12 +404,15 @@ export class World extends Picture {
     const { selected, drag } = this;
     let words = '';
     const actions = [];
-    const action = (...all) => actions.push(all);
+    const action = (...all) => actions.push(all); // name, title, onclick, whether it is on
     const turns = () => {
       action('−15°', 'Turn left by 15 degrees', () => this.shift(0, 0, -15));
       action('+15°', 'Turn right by 15 degrees', () => this.shift(0, 0, 15));
     };
-    if (this.tool === 'add-box') words = 'Draw a box';
+    if (this.tool === 'add-box') {
+      words = this.pushable ? 'Draw a box that robots push' : 'Draw a box';
+      action('Moves', 'Robots push it', () => { this.pushable = !this.pushable; this.told(); }, this.pushable);
+    }
     else if (this.tool === 'measure') {
       const [a, b] = this.measured ?? [];
       words = !a ? 'Click two places' : b ? `${num(Math.hypot(b[0] - a[0], b[1] - a[1]), 1)} cm, from ${num(a[0])}, ${num(a[1])} to ${num(b[0])}, ${num(b[1])}` : `From ${num(a[0])}, ${num(a[1])}`;
@@ -429,12 +433,13 @@ export class World extends Picture {
     if (this.toldKey === words) return;
     this.toldKey = words;
     const kept = box.querySelector('p');
-    if (kept && this.toldActions === actions.map((a) => a[0]).join()) {
-      text(kept, words);
-      return;
+    const names = actions.map(([name]) => name).join();
+    if (kept && this.toldActions === names) text(kept, words);
+    else {
+      this.toldActions = names;
+      box.replaceChildren(el('p', {}, words), ...actions.map(([name, title, onclick]) => el('button', { class: 'tool text', title, onclick }, name)));
     }
-    this.toldActions = actions.map((a) => a[0]).join();
-    box.replaceChildren(el('p', {}, words), ...actions.map(([name, title, onclick]) => el('button', { class: 'tool text', title, onclick }, name)));
+    actions.forEach(([, , , on], i) => on === undefined || pressed(box.querySelectorAll('button')[i], on));
   }
 }
 

@@ -87,12 +87,18 @@ form(hold, [Port0], hold(Port, true)) :-
     port(Port0, Port).
 form(free, [Port0], hold(Port, false)) :-
     port(Port0, Port).
-form(add, [Kind0|Numbers0], add(Fact)) :-
+form(add, [Kind0|Words], add(Fact)) :-
     atom_string(Kind, Kind0),
+    (   append(Numbers0, ["mass", Kg0], Words)
+    ->  number_of(Kg0, Kg),
+        Options = [[mass(Kg)]]
+    ;   Numbers0 = Words,
+        Options = []
+    ),
     numbers_of(Numbers0, Numbers),
-    length(Numbers, Count),
-    item(Kind, Count),
-    Fact =.. [Kind|Numbers].
+    append(Numbers, Options, Arguments),
+    item(Kind, Arguments),
+    Fact =.. [Kind|Arguments].
 form(move, [Id0, X0, Y0], move(Id, X, Y, same)) :-
     numbers_of([Id0, X0, Y0], [Id, X, Y]),
     integer(Id).
@@ -118,15 +124,22 @@ factor(x2, 2).
 factor(x10, 10).
 factor(max, 0).
 
-%   Count numbers describe a thing of this Kind.
-item(Kind, Count) :-
+%   These numbers, and a list of options after them, describe a thing of this
+%   Kind.
+item(Kind, Arguments) :-
     sim_forms_(Forms),
     member(thing(Form), Forms),
-    functor(Form, Kind, Count),
-    Form =.. [_|Arguments],
-    \+ ( member(_:Type, Arguments),
-         \+ memberchk(Type, [number, channel]) ),
+    Form =.. [Kind|Types],
+    are_of(Arguments, Types),
     !.
+
+are_of([], []).
+are_of([Argument|Arguments], [_:Type|Types]) :-
+    (   number(Argument)
+    ->  memberchk(Type, [number, channel])
+    ;   Type = traits
+    ),
+    are_of(Arguments, Types).
 
 numbers_of([], []).
 numbers_of([Text|Texts], [Number|Numbers]) :-
