@@ -6,6 +6,8 @@
 % right eye is at in3, the right wheel at outC. Light and speed both go from 0
 % to 100. Stop a vehicle with Ctrl-C.
 %
+% Vehicle 6, which nobody designs, is in braitenberg_selection.pl.
+%
 % After Valentino Braitenberg, Vehicles: Experiments in Synthetic Psychology.
 
 :- use_module(library(ev3dev)).

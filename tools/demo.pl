@@ -61,6 +61,7 @@ demo(obstacle_avoidance, room, start).
 demo(grid_navigation, grid, start).
 demo(backtracking, room, \+ start).           % it shows how it fails
 demo(braitenberg, lights, vehicle(taste)).
+demo(braitenberg_selection, lights, start).
 demo(line_following, line, start).
 demo(square, [start(0, 0, 0)], start).
 demo(slalom, Poles, start) :-

@@ -9,7 +9,8 @@
 %   Each in a module of its own: all have a start/0.
 load_examples :-
     forall(member(Name, [obstacle_avoidance, braitenberg]),
-           load_files(Name:example(Name), [])).
+           load_files(Name:example(Name), [])),
+    load_files(selection:example(braitenberg_selection), []).
 
 robot :-
     set_robot(5.6, 10.6, outB, outC).
@@ -103,6 +104,9 @@ lamp(150, 190).
 
 %   How near a vehicle comes to the lamp, and how far it is at the end.
 drive(Vehicle, Start, Nearest, Last) :-
+    drive(Vehicle, Start, Nearest, Last, _).
+
+drive(Vehicle, Start, Nearest, Last, Trace) :-
     lamp(LX, LY),
     with_sim(lights,
              ( Start = [X0, Y0, Heading],
@@ -113,6 +117,21 @@ drive(Vehicle, Start, Nearest, Last) :-
     nearest(Trace, LX, LY, Nearest),
     distance(X1, Y1, LX, LY, Last).
 
+start([130, 100, 0]).
+start([180, 110, -20]).
+start([60, 240, 120]).
+
+%   The pose at a time.
+at(Time, Trace, Pose) :-
+    findall(Pose0, ( member(T-Pose0, Trace), Pose0 = pose(_, _, _), T =< Time ), Poses),
+    last(Poses, Pose).
+
+%   How far it drove from one time to another.
+way(Time0, Time1, Trace, Way) :-
+    at(Time0, Trace, pose(X0, Y0, _)),
+    at(Time1, Trace, pose(X1, Y1, _)),
+    distance(X0, Y0, X1, Y1, Way).
+
 test(fear_flees_the_lamp,
      [forall(member(Start, [[130, 100, 0], [180, 110, -20]]))]) :-
     drive(fear, Start, Nearest, Last),
@@ -122,6 +141,81 @@ test(aggression_reaches_the_lamp,
      [forall(member(Start, [[130, 100, 0], [180, 110, -20]]))]) :-
     drive(aggression, Start, Nearest, _),
     Nearest < 10.
+% Vehicle 1
+test(alive_drives_straight_and_faster_in_the_light, true(Fast > 1.5 * Slow)) :-
+    drive(alive, [150, 100, 0], Nearest, _, Trace),
+    Nearest < 5,
+    at(30, Trace, pose(X, _, Heading)),
+    near(X, 150, 5),
+    near(Heading, 0, 3),
+    way(0.5, 1, Trace, Slow),
+    way(1.5, 2, Trace, Fast).
+% Vehicle 3a
+test(love_stops_in_front_of_the_lamp, [ forall(start(Start)), true(Way < 1) ]) :-
+    drive(love, Start, Nearest, Last, Trace),
+    near(Last, Nearest, 1),
+    near(Last, 72, 5),
+    way(20, 30, Trace, Way).
+% Vehicle 3b
+test(the_explorer_turns_away_from_the_lamp, [ forall(start(Start)), true(Last > 140) ]) :-
+    drive(explorer, Start, Nearest, Last),
+    Nearest > 70.
+% Vehicle 4a
+test(taste_goes_around_the_lamp_at_a_distance,
+     [ forall(start(Start)), true(Quarters = [_, _|_]) ]) :-
+    drive(taste, Start, _, _, Trace),
+    findall(Quarter-D,
+            ( member(Time-pose(X, Y, _), Trace), Time > 15,
+              distance(X, Y, 150, 190, D),
+              (   X > 150
+              ->  ( Y > 190 -> Quarter = a ; Quarter = b )
+              ;   Y > 190 -> Quarter = d ; Quarter = c ) ),
+            All),
+    forall(member(_-D, All), ( D > 15, D < 50 )),
+    findall(Quarter, member(Quarter-_, All), Quarters0),
+    sort(Quarters0, Quarters).
+% Vehicle 4b
+test(decision_starts_where_it_is_bright_enough, true(Last < 10)) :-
+    drive(decision, [130, 100, 0], _, Last, Trace),
+    way(15, 30, Trace, Way),
+    Way < 1.
+test(decision_does_not_move_where_it_is_darker) :-
+    drive(decision, [60, 240, 120], _, Last),
+    distance(60, 240, 150, 190, First),
+    near(Last, First, 1).
+% Vehicle 5
+test(memory_changes_its_character_when_it_is_dazzled,
+     true(Characters == [aggression, aggression, fear, fear, fear, aggression])) :-
+    characters([10-20, 60-70, 90-70, 85-60, 20-10, 20-90], nothing, Characters).
+
+characters([], _, []).
+characters([Left-Right|Eyes], Memory0, [Character|Characters]) :-
+    once(braitenberg:wires(memory, eyes(Left, Right), Wheels, Memory0, Memory)),
+    (   Wheels = wheels(Left, Right)
+    ->  Character = fear
+    ;   Wheels = wheels(Right, Left),
+        Character = aggression
+    ),
+    characters(Eyes, Memory, Characters).
+
+% Vehicle 6; the same on all machines, as all chance has a seed
+test(selection_leads_to_a_vehicle_that_seeks_the_light, true(Other > abs(Same))) :-
+    with_output_to(string(Text), selection:start(5, wires(_, Same, Other))),
+    split_string(Text, "\n", "\n", Lines),
+    findall(Cm,
+            ( member(Line, Lines),
+              once(sub_string(Line, Before, _, _, " cm")),
+              sub_string(Line, 0, Before, _, Begin),
+              split_string(Begin, ":", " ", [_, Number]),
+              number_string(Cm, Number) ),
+            Distances),
+    length(Distances, 5),
+    msort(Distances, Rising),
+    reverse(Rising, Distances),         % the best one stays
+    Distances = [First|_],
+    last(Distances, Last),
+    Last < First / 3.
+
 test(stands_when_it_is_interrupted,
      [forall(member(Vehicle, [alive, memory]))]) :-
     with_sim(lights, ( for_seconds(5, braitenberg:vehicle(Vehicle)), at_rest )).
