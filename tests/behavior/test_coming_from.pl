@@ -67,6 +67,28 @@ lacks(Goal) :-
              play(_), screen_text(_, _, _), sensor_values(_, _, _),
              i2c_read(_, _, _, _), i2c_write(_, _, _), screen_image(_, _, _),
              open(_, _, _), format(_, _, _), close(_) ]).
+% Each row of what the paper cites names examples, and each of these is there.
+test(each_work_has_its_examples, true(Missing == [])) :-
+    read_file_to_string('docs/coming-from.md', Text, []),
+    split_string(Text, "\n", "", Lines),
+    append(_, ["## What the paper of 2019 cites"|Below], Lines),
+    !,
+    findall(Cited-Examples,
+            ( member(Row, Below),
+              string_concat("| [", _, Row),
+              split_string(Row, "|", " ", ["", Cited, _, Cell, ""]),
+              split_string(Cell, "`", ", ", Parts),
+              exclude(==(""), Parts, Examples) ),
+            Rows),
+    length(Rows, Count),
+    assertion(Count >= 11),
+    findall(Cited-Example,
+            ( member(Cited-Examples, Rows),
+              (   Examples == [], Example = none
+              ;   member(Example, Examples),
+                  format(string(File), "examples/~w.pl", [Example]),
+                  \+ exists_file(File) ) ),
+            Missing).
 :- end_tests(coming_from).
 
 :- begin_tests(ported).
