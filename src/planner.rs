@@ -3,7 +3,7 @@ use crate::glue::call::Call;
 use crate::glue::error::wrong_because;
 use crate::glue::terms::Prolog;
 use ev3_os::locked;
-use ev3_planner::{Action, Effect, Formula, Limits, Planner, Progress, Rule, Task};
+use ev3_planner::{Action, Concurrent, Effect, Formula, Limits, Planner, Progress, Rule, Task};
 use std::sync::{Arc, Mutex};
 use swipl::prelude::*;
 
@@ -18,10 +18,12 @@ struct PlannerBlob {
 }
 
 natives! {
-    /// planner_new_(+Task, +Cheapest, -Planner): task(Facts, Initial, Actions, Rules, Goal). Facts
-    /// is their number, initial a list of facts, actions a list of action(Condition, Effects, Cost),
-    /// whose effects are effect(Truth, Fact, Condition), and rules a list of rule(Fact, Condition).
-    /// Conditions are those of `ground.pl`, with the numbers of facts.
+    /// planner_new_(+Task, +Cheapest, -Planner): task(Facts, Initial, Actions, Rules, Goal,
+    /// Concurrent). Facts is their number, initial a list of facts, actions a list of
+    /// action(Condition, Effects, Cost), whose effects are effect(Truth, Fact, Condition), and rules
+    /// a list of rule(Fact, Condition). Conditions are those of `ground.pl`, with the numbers of
+    /// facts. Concurrent is `none`, or concurrent(Agents, Needs, Excludes, Always): the agent of
+    /// each action, a number or `none`; a list of Action-Others; a list of Action-Other; a condition.
     semidet fn "planner_new_"(context, task, cheapest, planner) as call("do", 2) {
         let limits = Limits { cheapest: truth(&call, cheapest)?, bytes: BYTES };
         match Planner::new(&task_of(&call, task)?, &limits) {
@@ -31,7 +33,8 @@ natives! {
     }
 
     /// planner_work_(+Planner, +Steps, -Progress, -States): progress is plan(Actions), with their
-    /// indices from 0, no_plan, working or gave_up(Limit).
+    /// indices from 0, steps(Lists) with the actions of each step, no_plan, working or
+    /// gave_up(Limit).
     semidet fn "planner_work_"(context, planner, steps, progress, states) as call("do", 2) {
         let steps = u64::try_from(call.integer(steps)?).unwrap_or(0);
         let blob: Arc<PlannerBlob> = planner.get_ex()?;
@@ -52,12 +55,22 @@ natives! {
 
 fn progress_term<'a, C: Prolog>(call: &Call<'a, C>, progress: Progress) -> PrologResult<Term<'a>> {
     let context = call.context;
+    let list = |actions: Vec<usize>| {
+        let list = context.new_term_ref();
+        let actions: Vec<_> = actions.into_iter().map(|action| action as u64).collect();
+        list.unify(actions.as_slice())?;
+        Ok::<_, PrologError>(list)
+    };
     match progress {
         Progress::Plan(plan) => {
-            let list = context.new_term_ref();
-            let plan: Vec<_> = plan.into_iter().map(|action| action as u64).collect();
-            list.unify(plan.as_slice())?;
-            term! {context: plan(#&list)}
+            let plan = list(plan)?;
+            term! {context: plan(#&plan)}
+        }
+        Progress::Steps(steps) => {
+            let steps = steps.into_iter().map(list).collect::<PrologResult<Vec<_>>>()?;
+            let plan = context.new_term_ref();
+            plan.unify(steps.as_slice())?;
+            term! {context: steps(#&plan)}
         }
         Progress::NoPlan => term! {context: no_plan},
         Progress::Working => term! {context: working},
@@ -77,14 +90,40 @@ fn truth<C: Prolog>(call: &Call<C>, term: &Term) -> PrologResult<bool> {
 }
 
 fn task_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Task> {
-    let [facts, initial, actions, rules, goal] = call.arguments(term)?;
+    let [facts, initial, actions, rules, goal, concurrent] = call.arguments(term)?;
     Ok(Task {
         facts: number(call, &facts)?,
         initial: call.map_list(&initial, |fact| number(call, &fact))?,
         actions: call.map_list(&actions, |action| action_of(call, &action))?,
         rules: call.map_list(&rules, |rule| rule_of(call, &rule))?,
         goal: formula(call, &goal)?,
+        concurrent: concurrent_of(call, &concurrent)?,
     })
+}
+
+fn concurrent_of<'a, C: Prolog>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Option<Concurrent>> {
+    if term.is_atom() {
+        return Ok(None);
+    }
+    let [agents, needs, excludes, always] = call.arguments(term)?;
+    let agent = |term: Term<'a>| Ok(if term.is_atom() { None } else { Some(number(call, &term)?) });
+    let need = |term: Term<'a>| {
+        let [action, others] = call.arguments(&term)?;
+        Ok((number(call, &action)?, call.map_list(&others, |other| number(call, &other))?))
+    };
+    let exclude = |term: Term<'a>| {
+        let [action, other] = call.arguments(&term)?;
+        Ok((number(call, &action)?, number(call, &other)?))
+    };
+    Ok(Some(Concurrent {
+        agents: call.map_list(&agents, agent)?,
+        needs: call.map_list(&needs, need)?,
+        excludes: call.map_list(&excludes, exclude)?,
+        always: formula(call, &always)?,
+    }))
 }
 
 fn action_of<'a, C: Prolog>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Action> {

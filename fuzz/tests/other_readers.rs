@@ -123,6 +123,7 @@ fn a_plan_has_the_actions_of_its_task() {
                 })
                 .collect(),
             goal: formula(&any.goal, facts),
+            concurrent: None,
         };
         let limits = Limits { cheapest: any.is_cheapest, bytes: 1 << 20 };
         let Ok(mut planner) = Planner::new(&task, &limits) else { return };

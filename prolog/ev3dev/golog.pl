@@ -55,13 +55,15 @@
                 state_of_run/3
               ]).
 :- use_module(private/golog/search, [found_path/4]).
+:- use_module(private/golog/step_checks, []).
+:- use_module(private/golog/steps, [sorted_steps/2]).
 :- use_module(private/golog/theory,
               [ declare_domain/1, domain_list/3, has_clauses/2,
                 has_situations/1, prepare/1, program_in/4, vocabulary/1
               ]).
 :- use_module(private/golog/transitions,
               [is_final/3, program_shown/2, run/5, step/5]).
-:- use_module(private/golog/no_plan, [no_plan/4]).
+:- use_module(private/golog/no_plan, [no_plan/5]).
 :- use_module(private/golog/why_not, [fluent_why/5, hindrance/5]).
 :- use_module(private/golog/world,
               [ ask/2, code_of_number/3, run_directly/4, send_exogenous/2 ]).
@@ -257,8 +259,9 @@ settings(Options, M,
     ->  true
     ;   must_be(nonneg, Limit)
     ),
-    option(initial(Initial), Options, []),
-    must_be(list, Initial),
+    option(initial(Initial0), Options, []),
+    must_be(list, Initial0),
+    sorted_steps(Initial0, Initial),
     one_of(on_failed(OnFailed), [continue, stop, backtrack], Options),
     one_of(gexec(Gexec), [guard, assume], Options),
     (   Gexec == assume
@@ -367,13 +370,15 @@ do(Program, History0, History) :-
     context_module(M),
     ev3dev_golog:do_in(M, Program, History0, History).
 
-do_in(M0, Program0, History0, History) :-
+do_in(M0, Program0, History0, History1) :-
     program_in(M0, Program0, M, Program),
     situation_now(M, History0, S0, X),
-    (   is_list(History)
-    ->  length(History, Count),
+    (   is_list(History1)
+    ->  sorted_steps(History1, History),
+        length(History, Count),
         On = at(Count, h(History))
-    ;   On = any
+    ;   On = any,
+        History = History1
     ),
     run(Program, S0, S, On, X),
     reached(History0, S, X, M, History).
@@ -449,9 +454,10 @@ situation_now(M, History, S, X) :-
     (   is_term(History, M)
     ->  situation([e('$VAR'('S'), History)], S, X)
     ;   must_be(list(nonvar), History),
-        (   situation_of_run(History, M, S0, X)
+        sorted_steps(History, Sorted),
+        (   situation_of_run(Sorted, M, S0, X)
         ->  S = S0
-        ;   situation(History, S, X)
+        ;   situation(Sorted, S, X)
         )
     ).
 
@@ -499,8 +505,23 @@ now(History) :-
 %     - not_offered
 %       The program that remains does not begin with it.
 %
-%   Fails if nothing stands in its way. Action may also be achieve(Goal): why
-%   is there no plan? Then Why is
+%   Action may also be a list of actions that several agents do in one step.
+%   Then, and if the domain has rules for steps, Why may also be
+%
+%     - part(Part, Reason)
+%       One of the actions is not possible; Reason is no_action or
+%       not_possible(Failures).
+%     - not_a_step(Rule, Values)
+%       Each action is possible, but not as this step. Rule is
+%       together(Part, Other), if Part needs another action that unifies with
+%       Other; excludes(Part1, Part2); one_at_a_time(Agent, Part1, Part2), if
+%       both belong to Agent; agent_of(Part), if it belongs to no agent;
+%       senses(Part); one_value(Fluent, Part1, Part2), if they would give
+%       Fluent two values; or always(Condition), which would not hold after
+%       the step, with the values that the fluents in it would have.
+%
+%   Fails if nothing stands in its way. Action may also be achieve(Goal) or
+%   achieve(Goal, Options): why is there no plan? Then Why is
 %
 %     - no_plan(Conditions, Missing)
 %       There is none for Conditions, parts of Goal, and one without each of
@@ -517,17 +538,21 @@ why_not(M:Action) :-
     ;   print_message(help, golog(why_not(Action, nothing)))
     ).
 
-why_not(M:Action, Why) :-
-    must_be(ground, Action),
+why_not(M:Action0, Why) :-
+    must_be(ground, Action0),
     prepare(M),
     context(M, [], X),
+    sorted_steps([Action0], [Action]),
     (   state_of_run(M, E, S)
     ->  true
-    ;   E = [Action],
+    ;   ( Action = [_|_] -> E = together(Action) ; E = [Action] ),
         situation([], S, X)
     ),
     (   Action = achieve(Goal)
-    ->  no_plan(Goal, Why, S, X)
+    ->  no_plan(Goal, [], Why, S, X)
+    ;   Action = achieve(Goal, Options),
+        is_list(Options)
+    ->  no_plan(Goal, Options, Why, S, X)
     ;   hindrance(Action, E, Why, S, X)
     ).
 

@@ -7,7 +7,8 @@
 
 :- initialization(( load_files(sumo_match:example(sumo_match), []),
                     load_files(convoy:example(convoy), []),
-                    load_files(map_together:example(map_together), []) )).
+                    load_files(map_together:example(map_together), []),
+                    load_files(carry_together:example(carry_together), []) )).
 
 printed(Goal, Lines) :-
     with_output_to(string(Text), Goal),
@@ -52,6 +53,20 @@ test(two_robots_draw_one_map, Near-Far == true-true) :-
     ( Count > 2 -> Near = true ; Near = Count ),
     % What only the scout has seen
     ( map_together:seen(X1, _), X1 > 290 -> Far = true ; Far = false ).
+test(two_robots_carry_a_bar_through_a_door, Steps-Near == Expected-true) :-
+    Expected = [ "[go(anna,west,south),go(bob,east,north)]",
+                 "[grip(anna),grip(bob)]",
+                 "[carry(anna,1,2),carry(bob,1,2)]",
+                 "[carry(anna,2,3),carry(bob,2,3)]",
+                 "[carry(anna,2,3),carry(bob,2,3)]",
+                 "[carry(anna,3,4),carry(bob,3,4)]",
+                 "[carry(anna,4,5),carry(bob,4,5)]",
+                 "[release(anna),release(bob)]" ],
+    printed(carry_together:start, Lines),
+    once(append(Steps, [Last], Lines)),
+    split_string(Last, " ", ",", ["8", "steps;", "the", "bar", "lies", "at", X0, Y0, "cm."]),
+    maplist(number_string, [X, Y], [X0, Y0]),
+    ( sqrt(X**2 + (Y-160)**2) < 5 -> Near = true ; Near = X-Y ).
 
 between_(Low, Value, High) :-
     Low =< Value,

@@ -350,6 +350,7 @@ trans_of(e(n, 2), no, [[]-[e(n, 2)]]).
 trans_of(time(ndet(a, b), 9), no, [[]-[a]]).                    % [M]
 trans_of(ttime([ndet(a, b), c], 9), no, [ttime([[], c], 9)-[a]]).   % [M]
 trans_of(sync([ndet(a, b), ndet(b, c)]), no, [sync([[], []])-[b]]). % [M]
+trans_of(together([a]), no, [[]-[[a]]]).                         % ours
 trans_of(either(a), no, [[]-[a], []-[c]]).                      % [C] procedures
 trans_of(off(_), no, [[]-[off(1)], []-[off(3)]]).               % [C] action
 
@@ -394,6 +395,7 @@ without_part(branch(_)).
 without_part(set(_)).
 without_part(unset(_)).
 without_part(e(_, _)).
+without_part(together(_)).
 
 whole_in_whole(P, E) :-
     whole(P, E).

@@ -144,7 +144,7 @@ test(a_task_may_have_more_than_a_million_effects) :-
     findall(effect(true, 0, true), between(1, 1100000, _), Effects),
     setup_call_cleanup(
         ev3dev_native:planner_new_(task(1, [], [action(true, Effects, 1)],
-                                        [], 0), false, Planner),
+                                        [], 0, none), false, Planner),
         ev3dev_native:planner_work_(Planner, 50, plan([0]), _),
         ev3dev_native:planner_end_(Planner)).
 test(achieve_gives_up_values_without_end, H == [up, up]) :-

@@ -112,7 +112,7 @@ interpreted(Goal, and(Goal, (true -> true ; true))).
 test(what_the_domain_does_not_decide_is_not_made_ground, fail) :-
     read_files(blocks, _, _),
     interpreted(pddl_goal, Goal),
-    ev3dev_golog_planning_task:task(pddl_test, Goal, [], false, none, _).
+    ev3dev_golog_planning_task:task(pddl_test, Goal, [], false, by_turns, none, _).
 test(a_plan_that_need_not_be_shortest_is_valid,
      [forall(published(Name, Least)), true(Verdict-Long == solved-enough)]) :-
     read_files(Name, Domain, Problem),

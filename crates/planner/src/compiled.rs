@@ -73,7 +73,7 @@ pub(crate) struct Condition {
 
 impl Condition {
     /// The condition of a formula, or `None` if it cannot hold.
-    fn new(formula: &Formula, value: bool) -> Option<Condition> {
+    pub(crate) fn new(formula: &Formula, value: bool) -> Option<Condition> {
         let mut all = Condition::default();
         match (formula, value) {
             (Formula::Fact(fact), _) => all.literals.push(Literal::new(*fact, value)),
@@ -103,6 +103,25 @@ impl Condition {
             }
         }
         Some(all)
+    }
+
+    /// One of the others holds, too.
+    fn require_one(&mut self, mut others: Vec<Condition>) {
+        if others.iter().any(Condition::is_true) {
+            return;
+        }
+        match (others.pop(), others.is_empty()) {
+            (Some(other), true) => {
+                self.literals.extend(other.literals);
+                self.literals.sort_unstable();
+                self.literals.dedup();
+                self.alternatives.extend(other.alternatives);
+            }
+            (last, _) => {
+                others.extend(last);
+                self.alternatives.push(others);
+            }
+        }
     }
 
     fn is_true(&self) -> bool {
@@ -173,7 +192,11 @@ pub(crate) struct Compiled {
 
 impl Compiled {
     pub(crate) fn new(task: &Task) -> Result<Compiled, Fault> {
-        let asked = asked(task)?;
+        let mut asked = asked(task)?;
+        if task.concurrent.is_some() {
+            // Two agents may contradict each other in any fact.
+            asked.fill(Word::MAX);
+        }
         let mut derived = vec![0; task.facts.div_ceil(64)];
         for rule in &task.rules {
             set(&mut derived, rule.fact, true);
@@ -189,7 +212,7 @@ impl Compiled {
         let mut compiled = Compiled {
             facts: task.facts,
             initial: vec![0; task.facts.div_ceil(64)],
-            operators: operators(task, &asked),
+            operators: with_others(&operators(task, &asked), task),
             strata: strata(rules.collect(), &derived)?,
             derived,
             goal: Condition::new(&task.goal, true),
@@ -215,13 +238,16 @@ impl Compiled {
         self.goal.as_ref().is_some_and(|goal| goal.holds(state))
     }
 
-    /// `to` becomes the state after an operator.
-    pub(crate) fn apply(&self, operator: usize, from: &[Word], to: &mut [Word]) {
+    /// What an operator changes in a state.
+    pub(crate) fn changes(&self, operator: u32, state: &[Word]) -> impl Iterator<Item = &Change> {
+        let changes = self.operators[operator as usize].changes.iter();
+        changes.filter(move |change| change.condition.holds(state))
+    }
+
+    /// `to` becomes the state after operators of one step.
+    pub(crate) fn apply(&self, operators: &[u32], from: &[Word], to: &mut [Word]) {
         to.copy_from_slice(from);
-        let changes = || {
-            let changes = self.operators[operator].changes.iter();
-            changes.filter(|change| change.condition.holds(from))
-        };
+        let changes = || operators.iter().flat_map(|&operator| self.changes(operator, from));
         for fact in changes().flat_map(|change| &change.deletes) {
             set(to, *fact, false);
         }
@@ -284,6 +310,9 @@ fn asked(task: &Task) -> Result<Vec<Word>, Fault> {
         facts(condition, &mut visit);
     }
     facts(&task.goal, &mut visit);
+    if let Some(concurrent) = &task.concurrent {
+        facts(&concurrent.always, &mut visit);
+    }
     wrong.map_or(Ok(asked), |fact| Err(Fault::NoSuchFact(fact)))
 }
 
@@ -299,9 +328,27 @@ fn operators(task: &Task, asked: &[Word]) -> Vec<Operator> {
         let changes: Vec<_> = changes
             .map(|(condition, [deletes, adds])| Change { condition, adds, deletes })
             .collect();
-        (!changes.is_empty()).then_some(Operator { action, condition, changes, cost: of.cost })
+        // Another agent's action may need it.
+        let is_useful = !changes.is_empty() || task.concurrent.is_some();
+        is_useful.then_some(Operator { action, condition, changes, cost: of.cost })
     };
     task.actions.iter().enumerate().filter_map(operator).collect()
+}
+
+/// The operators with the conditions of those that they need in the same step.
+fn with_others(operators: &[Operator], task: &Task) -> Vec<Operator> {
+    let needs = task.concurrent.iter().flat_map(|concurrent| &concurrent.needs);
+    let mut with = operators.to_vec();
+    for (action, others) in needs {
+        let others = operators.iter().filter(|operator| others.contains(&operator.action));
+        let mut others: Vec<_> = others.map(|operator| operator.condition.clone()).collect();
+        others.sort_unstable();
+        others.dedup();
+        for operator in with.iter_mut().filter(|operator| operator.action == *action) {
+            operator.condition.require_one(others.clone());
+        }
+    }
+    with
 }
 
 fn strata(rules: Vec<Derivation>, derived: &[Word]) -> Result<Vec<Vec<Derivation>>, Fault> {

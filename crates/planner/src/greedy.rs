@@ -19,7 +19,7 @@ const BOOST: i64 = 1000;
 pub(crate) struct Greedy {
     pub(crate) tree: Tree,
     plans: RelaxedPlan,
-    /// All, and those that are preferred: a state and the operator to apply to it.
+    /// All, and those that are preferred: a state and the step from it.
     open: [OpenList<u32, (u32, u32)>; 2],
     /// The turns that each list has had.
     turns: [i64; 2],
@@ -30,7 +30,7 @@ pub(crate) struct Greedy {
 }
 
 impl Greedy {
-    pub(crate) fn new(problem: &Problem) -> Greedy {
+    pub(crate) fn new(problem: &mut Problem) -> Greedy {
         let mut greedy = Greedy {
             tree: Tree::new(&problem.task.initial),
             plans: RelaxedPlan::new(&problem.task, &problem.relaxed),
@@ -45,15 +45,15 @@ impl Greedy {
         greedy
     }
 
-    pub(crate) fn step(&mut self, problem: &Problem) -> Step {
+    pub(crate) fn step(&mut self, problem: &mut Problem) -> Step {
         let preferred =
             self.open[0].is_empty() || !self.open[1].is_empty() && self.turns[1] <= self.turns[0];
         let list = usize::from(preferred);
         self.turns[list] += 1;
-        let Some((from, operator)) = self.open[list].pop() else { return Step::Exhausted };
-        problem.task.apply(operator as usize, self.tree.states.get(from), &mut self.state);
+        let Some((from, step)) = self.open[list].pop() else { return Step::Exhausted };
+        problem.apply(step, self.tree.states.get(from), &mut self.state);
         self.work += self.state.len() as u64 + 8;
-        let Some(number) = self.tree.grow(&self.state, from, operator) else { return Step::Open };
+        let Some(number) = self.tree.grow(&self.state, from, step) else { return Step::Open };
         if problem.task.reaches_goal(&self.state) {
             return Step::Plan(self.tree.plan(number));
         }
@@ -61,18 +61,17 @@ impl Greedy {
         Step::Open
     }
 
-    fn expand(&mut self, problem: &Problem, number: u32) {
+    fn expand(&mut self, problem: &mut Problem, number: u32) {
         let Some(estimate) = self.plans.estimate(&problem.relaxed, &self.state) else { return };
         if estimate < self.nearest {
             self.nearest = estimate;
             self.turns[1] -= BOOST;
         }
-        problem.successors.of(&problem.task, &self.state, &mut self.possible);
-        self.work += self.possible.len() as u64;
-        for &operator in &self.possible {
-            self.open[0].push(estimate, (number, operator));
-            if self.plans.helps(operator) {
-                self.open[1].push(estimate, (number, operator));
+        self.work += problem.possible(&self.state, &mut self.possible);
+        for step in &self.possible {
+            self.open[0].push(estimate, (number, *step));
+            if problem.operators(step).iter().all(|&operator| self.plans.helps(operator)) {
+                self.open[1].push(estimate, (number, *step));
             }
         }
     }

@@ -57,6 +57,17 @@ impl LandmarkCut {
         }
     }
 
+    /// A cost that operators which must come one after the other have at least, or `None` if there
+    /// is no plan. Those that several agents do at the same time count once.
+    ///
+    /// Source: Haslum, Geffner: Admissible Heuristics for Optimal Planning (2000).
+    pub(crate) fn longest(&mut self, relaxed: &Relaxed, state: &[Word]) -> Option<u32> {
+        self.left.clone_from(&self.operator_costs);
+        self.explore(relaxed, state);
+        let longest = self.costs[relaxed.goal as usize];
+        (longest != NEVER).then_some(longest)
+    }
+
     /// A cost that each plan from a state has at least, or `None` if there is no plan.
     pub(crate) fn estimate(&mut self, relaxed: &Relaxed, state: &[Word]) -> Option<u32> {
         self.left.clone_from(&self.operator_costs);

@@ -1,12 +1,13 @@
 //! Plans for tasks of classical planning: facts that are true or false, actions with conditions and
-//! conditional effects, facts that rules derive, and a goal.
+//! conditional effects, facts that rules derive, and a goal. Several agents may act at the same time.
 //!
 //! A [`Task`] has numbered facts and actions. A [`Planner`] looks for a plan, piece by piece, so
 //! that its caller can do other things between two pieces, and can stop it:
 //!
 //! - **any plan**: two searches take turns, one guided by relaxed plans, the other by what is new
 //!   in a state;
-//! - **the cheapest plan**: A\* with the landmark-cut heuristic.
+//! - **the cheapest plan**: A\* with the landmark-cut heuristic; of several agents the one with the
+//!   fewest steps, and of these with the fewest actions.
 //!
 //! "No plan" is an answer only where the whole space has been searched. The same task gets the
 //! same plan each time and on each machine, as no clock and no random number is used.
@@ -26,6 +27,7 @@
 //!     actions: vec![action(Formula::Fact(1), 0), action(Formula::TRUE, 1)],
 //!     rules: vec![],
 //!     goal: Formula::Fact(0),
+//!     concurrent: None,
 //! };
 //! let mut planner = Planner::new(&task, &Limits::default())?;
 //! assert_eq!(planner.work(1_000_000), Progress::Plan(vec![1, 0]));
@@ -34,6 +36,7 @@
 #![forbid(unsafe_code)]
 
 mod compiled;
+mod concurrent;
 mod greedy;
 mod heuristic;
 mod landmark_cut;
@@ -47,4 +50,4 @@ mod successors;
 mod task;
 
 pub use planner::{Limits, Planner, Progress};
-pub use task::{Action, Effect, Fault, Formula, Rule, Task};
+pub use task::{Action, Concurrent, Effect, Fault, Formula, Rule, Task};

@@ -80,15 +80,14 @@ impl Novelty {
         novelty
     }
 
-    pub(crate) fn step(&mut self, problem: &Problem) -> Step {
+    pub(crate) fn step(&mut self, problem: &mut Problem) -> Step {
         let Some(from) = self.open.pop() else { return Step::Exhausted };
         let mut possible = std::mem::take(&mut self.possible);
-        problem.successors.of(&problem.task, self.tree.states.get(from), &mut possible);
-        self.work += possible.len() as u64;
-        for &operator in &possible {
-            problem.task.apply(operator as usize, self.tree.states.get(from), &mut self.state);
+        self.work += problem.possible(self.tree.states.get(from), &mut possible);
+        for &step in &possible {
+            problem.apply(step, self.tree.states.get(from), &mut self.state);
             self.work += self.state.len() as u64 + 8;
-            let Some(number) = self.tree.grow(&self.state, from, operator) else { continue };
+            let Some(number) = self.tree.grow(&self.state, from, step) else { continue };
             if problem.task.reaches_goal(&self.state) {
                 return Step::Plan(self.tree.plan(number));
             }

@@ -1,5 +1,4 @@
 //! The searches together.
-use crate::compiled::Compiled;
 use crate::greedy::Greedy;
 use crate::novelty::Novelty;
 use crate::problem::Problem;
@@ -27,6 +26,8 @@ impl Default for Limits {
 pub enum Progress {
     /// A plan, as indices of actions.
     Plan(Vec<usize>),
+    /// A plan of several agents: the actions of each step.
+    Steps(Vec<Vec<usize>>),
     /// It is proven that there is no plan.
     NoPlan,
     /// It has not ended yet.
@@ -44,7 +45,7 @@ pub struct Planner {
     bytes: usize,
 }
 
-/// A plan of which each action is left out to see whether it is needed.
+/// A plan of which each step is left out to see whether it is needed.
 #[derive(Debug)]
 struct Found {
     plan: Vec<u32>,
@@ -66,12 +67,12 @@ impl Planner {
     /// # Errors
     /// If the task contradicts itself.
     pub fn new(task: &Task, limits: &Limits) -> Result<Planner, Fault> {
-        let problem = Problem::new(task)?;
+        let mut problem = Problem::new(task)?;
         let search = if limits.cheapest {
             Search::Cheapest(Box::new(Shortest::new(&problem)))
         } else {
             let novelty = Novelty::new(&problem, limits.bytes / 4);
-            Search::Any(Box::new(Greedy::new(&problem)), Some(Box::new(novelty)))
+            Search::Any(Box::new(Greedy::new(&mut problem)), Some(Box::new(novelty)))
         };
         Ok(Planner { problem, search, found: None, bytes: limits.bytes })
     }
@@ -83,7 +84,7 @@ impl Planner {
             return Progress::NoPlan;
         }
         if self.problem.task.reaches_goal(&self.problem.task.initial) {
-            return Progress::Plan(vec![]);
+            return self.progress(&[]);
         }
         let end = self.worked() + steps;
         while self.worked() < end {
@@ -91,16 +92,25 @@ impl Planner {
                 Step::Plan(plan) if self.found.is_none() && !self.is_cheapest() => {
                     self.found = Some(Found { plan, at: 0, work: 0 });
                 }
-                Step::Plan(plan) => {
-                    let operators = &self.problem.task.operators;
-                    let action = |&operator: &u32| operators[operator as usize].action;
-                    return Progress::Plan(plan.iter().map(action).collect());
-                }
+                Step::Plan(plan) => return self.progress(&plan),
                 Step::Exhausted => return Progress::NoPlan,
                 Step::Open => (),
             }
         }
         if self.within_memory() { Progress::Working } else { Progress::OutOfMemory }
+    }
+
+    fn progress(&self, plan: &[u32]) -> Progress {
+        let problem = &self.problem;
+        let actions = plan.iter().map(|step| {
+            let operators = problem.operators(step).iter();
+            operators.map(|&operator| problem.task.operators[operator as usize].action)
+        });
+        if problem.is_concurrent() {
+            Progress::Steps(actions.map(Iterator::collect).collect())
+        } else {
+            Progress::Plan(actions.flatten().collect())
+        }
     }
 
     /// How many states it has seen so far.
@@ -120,14 +130,14 @@ impl Planner {
 
     fn step(&mut self) -> Step {
         if let Some(found) = &mut self.found {
-            return found.step(&self.problem.task);
+            return found.step(&mut self.problem);
         }
         match &mut self.search {
             Search::Any(greedy, Some(novelty)) if novelty.work() < greedy.work() => {
-                novelty.step(&self.problem)
+                novelty.step(&mut self.problem)
             }
-            Search::Any(greedy, _) => greedy.step(&self.problem),
-            Search::Cheapest(shortest) => shortest.step(&self.problem),
+            Search::Any(greedy, _) => greedy.step(&mut self.problem),
+            Search::Cheapest(shortest) => shortest.step(&mut self.problem),
         }
     }
 
@@ -144,35 +154,34 @@ impl Planner {
     fn within_memory(&mut self) -> bool {
         match &mut self.search {
             Search::Any(greedy, novelty) => {
-                let rest = self.bytes.saturating_sub(greedy.bytes());
+                let rest = self.bytes.saturating_sub(greedy.bytes() + self.problem.bytes());
                 novelty.take_if(|novelty| novelty.bytes() > rest);
                 rest > 0
             }
-            Search::Cheapest(shortest) => shortest.bytes() < self.bytes,
+            Search::Cheapest(shortest) => shortest.bytes() + self.problem.bytes() < self.bytes,
         }
     }
 }
 
 impl Found {
-    /// Leaves out the next action and those that are not possible then, if the plan still reaches
+    /// Leaves out the next step and those that are not possible then, if the plan still reaches
     /// the goal.
-    fn step(&mut self, task: &Compiled) -> Step {
+    fn step(&mut self, problem: &mut Problem) -> Step {
         if self.at == self.plan.len() {
             return Step::Plan(std::mem::take(&mut self.plan));
         }
-        let mut state = task.initial.clone();
+        let mut state = problem.task.initial.clone();
         let mut next = state.clone();
         let mut rest = Vec::new();
-        for (index, &operator) in self.plan.iter().enumerate() {
-            let possible = task.operators[operator as usize].condition.holds(&state);
-            if index != self.at && possible {
-                task.apply(operator as usize, &state, &mut next);
+        for (index, &step) in self.plan.iter().enumerate() {
+            if index != self.at && problem.is_possible(step, &state) {
+                problem.apply(step, &state, &mut next);
                 std::mem::swap(&mut state, &mut next);
-                rest.push(operator);
+                rest.push(step);
             }
         }
         self.work += (self.plan.len() * (state.len() + 8)) as u64;
-        if task.reaches_goal(&state) {
+        if problem.task.reaches_goal(&state) {
             self.plan = rest;
         } else {
             self.at += 1;

@@ -32,11 +32,20 @@ impl Shortest {
             possible: vec![],
             work: 0,
         };
-        let estimate =
-            shortest.cut.estimate(&problem.relaxed, &problem.task.initial).unwrap_or(NEVER);
+        let estimate = shortest.estimate(problem);
         shortest.costs.push((0, estimate));
         shortest.push(0);
         shortest
+    }
+
+    /// The least cost that is left from the state.
+    fn estimate(&mut self, problem: &Problem) -> u32 {
+        let estimate = if problem.is_concurrent() {
+            self.cut.longest(&problem.relaxed, &self.state).map(Problem::cost_of_steps)
+        } else {
+            self.cut.estimate(&problem.relaxed, &self.state)
+        };
+        estimate.unwrap_or(NEVER)
     }
 
     fn push(&mut self, state: u32) {
@@ -58,7 +67,7 @@ impl Shortest {
         entry
     }
 
-    pub(crate) fn step(&mut self, problem: &Problem) -> Step {
+    pub(crate) fn step(&mut self, problem: &mut Problem) -> Step {
         let Some((from, cost)) = self.pop() else { return Step::Exhausted };
         if cost > self.costs[from as usize].0 {
             return Step::Open;
@@ -67,20 +76,19 @@ impl Shortest {
             return Step::Plan(self.tree.plan(from));
         }
         let mut possible = std::mem::take(&mut self.possible);
-        problem.successors.of(&problem.task, self.tree.states.get(from), &mut possible);
-        self.work += possible.len() as u64;
-        for &operator in &possible {
-            problem.task.apply(operator as usize, self.tree.states.get(from), &mut self.state);
+        self.work += problem.possible(self.tree.states.get(from), &mut possible);
+        for &step in &possible {
+            problem.apply(step, self.tree.states.get(from), &mut self.state);
             self.work += self.state.len() as u64 + 8;
-            let cost = cost.saturating_add(problem.task.operators[operator as usize].cost);
+            let cost = cost.saturating_add(problem.cost(step));
             let (number, is_new) = self.tree.states.insert(&self.state);
             if is_new {
-                self.tree.before.push((from, operator));
-                let estimate = self.cut.estimate(&problem.relaxed, &self.state).unwrap_or(NEVER);
+                self.tree.before.push((from, step));
+                let estimate = self.estimate(problem);
                 self.costs.push((cost, estimate));
                 self.push(number);
             } else if cost < self.costs[number as usize].0 {
-                self.tree.before[number as usize] = (from, operator);
+                self.tree.before[number as usize] = (from, step);
                 self.costs[number as usize].0 = cost;
                 self.push(number);
             }

@@ -60,7 +60,7 @@ fn spread(hash: u32) -> u64 {
 #[derive(Debug)]
 pub(crate) struct Tree {
     pub(crate) states: States,
-    /// The state before, and the operator.
+    /// The state before, and the step from it.
     pub(crate) before: Vec<(u32, u32)>,
 }
 
@@ -73,20 +73,20 @@ impl Tree {
     }
 
     /// The number of a state, if it is new.
-    pub(crate) fn grow(&mut self, state: &[Word], from: u32, operator: u32) -> Option<u32> {
+    pub(crate) fn grow(&mut self, state: &[Word], from: u32, step: u32) -> Option<u32> {
         let (number, is_new) = self.states.insert(state);
         is_new.then(|| {
-            self.before.push((from, operator));
+            self.before.push((from, step));
             number
         })
     }
 
-    /// The operators that lead to a state.
+    /// The steps that lead to a state.
     pub(crate) fn plan(&self, mut state: u32) -> Vec<u32> {
         let mut plan = Vec::new();
         while state != 0 {
-            let (from, operator) = self.before[state as usize];
-            plan.push(operator);
+            let (from, step) = self.before[state as usize];
+            plan.push(step);
             state = from;
         }
         plan.reverse();
@@ -101,7 +101,7 @@ impl Tree {
 /// The result of one step of a search.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Step {
-    /// A plan, as operators.
+    /// A plan, as steps.
     Plan(Vec<u32>),
     /// There is no state left that could lead to the goal.
     Exhausted,

@@ -13,6 +13,22 @@ pub struct Task {
     pub rules: Vec<Rule>,
     /// The condition that is to hold in the end.
     pub goal: Formula,
+    /// If several agents act at the same time: what they may do in one step.
+    pub concurrent: Option<Concurrent>,
+}
+
+/// What several agents may do in one step. An agent does at most one action in it, and no two
+/// actions of a step change a fact in different ways. Conditions are those before the step.
+#[derive(Clone, Debug, Default)]
+pub struct Concurrent {
+    /// The agent of each action, numbered from 0. An action of no agent is a step by itself.
+    pub agents: Vec<Option<usize>>,
+    /// A step with the action has one of the others, too.
+    pub needs: Vec<(usize, Vec<usize>)>,
+    /// Two actions that are in no step together.
+    pub excludes: Vec<(usize, usize)>,
+    /// The condition that holds after each step.
+    pub always: Formula,
 }
 
 /// An action.
@@ -85,4 +101,7 @@ pub enum Fault {
     /// A derived fact depends on its own absence.
     #[error("the derived fact {0} depends on its own absence")]
     NotStratified(usize),
+    /// A number that is no action's.
+    #[error("there is no action {0}")]
+    NoSuchAction(usize),
 }

@@ -1,5 +1,7 @@
 //! Small random tasks against a search through all states that shares no code with the crate.
-use ev3_planner::{Action, Effect, Fault, Formula, Limits, Planner, Progress, Rule, Task};
+use ev3_planner::{
+    Action, Concurrent, Effect, Fault, Formula, Limits, Planner, Progress, Rule, Task,
+};
 use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -116,7 +118,14 @@ fn task() -> impl Strategy<Value = Task> {
     let rules = prop::collection::vec(prop_oneof![rule(5), rule(6)], 0..4);
     let initial = prop::collection::vec(0..DERIVED.start, 0..3);
     (initial, prop::collection::vec(action(), 1..7), rules, formula(FACTS)).prop_map(
-        |(initial, actions, rules, goal)| Task { facts: FACTS, initial, actions, rules, goal },
+        |(initial, actions, rules, goal)| Task {
+            facts: FACTS,
+            initial,
+            actions,
+            rules,
+            goal,
+            concurrent: None,
+        },
     )
 }
 
@@ -131,8 +140,134 @@ fn solve(task: &Task, cheapest: bool) -> Progress {
     }
 }
 
+fn several_agents() -> impl Strategy<Value = Task> {
+    let actions = prop::collection::vec(action(), 2..6);
+    let agents = prop::collection::vec(prop::option::weighted(0.9, 0..3_usize), 6);
+    let pairs = || prop::collection::vec((0..6_usize, 0..6_usize), 0..3);
+    let needs = prop::collection::vec((0..6_usize, prop::collection::vec(0..6_usize, 0..3)), 0..3);
+    (task(), actions, agents, needs, pairs(), formula(FACTS), any::<bool>()).prop_map(
+        |(task, actions, agents, needs, excludes, always, is_free)| {
+            let count = actions.len();
+            let other = |(one, other)| (one % count, other % count);
+            let need = |(one, others): (usize, Vec<usize>)| {
+                (one % count, others.iter().map(|other| other % count).collect())
+            };
+            let concurrent = Concurrent {
+                agents: agents[..count].to_vec(),
+                needs: needs.into_iter().map(need).collect(),
+                excludes: excludes.into_iter().map(other).collect(),
+                always: if is_free { Formula::TRUE } else { always },
+            };
+            Task { actions, concurrent: Some(concurrent), ..task }
+        },
+    )
+}
+
+/// The state after the actions of a step, if they are one.
+fn after_step(task: &Task, step: &[usize], state: &State) -> Option<State> {
+    let concurrent = task.concurrent.as_ref()?;
+    let pairs = || step.iter().flat_map(|&one| step.iter().map(move |&other| (one, other)));
+    let fits = !step.is_empty()
+        && step.iter().all(|&action| holds(&task.actions[action].condition, state))
+        && pairs().filter(|(one, other)| one < other).all(|(one, other)| {
+            let (of_one, of_other) = (concurrent.agents[one], concurrent.agents[other]);
+            of_one.is_some() && of_other.is_some() && of_one != of_other
+        })
+        && (concurrent.needs.iter().filter(|(action, _)| step.contains(action)))
+            .all(|(_, others)| others.iter().any(|other| step.contains(other)))
+        && pairs()
+            .filter(|(one, other)| one != other)
+            .all(|pair| !concurrent.excludes.contains(&pair));
+    let changes = |value: bool, action: usize| -> BTreeSet<usize> {
+        let effects = task.actions[action].effects.iter();
+        let effects = effects.filter(|effect| holds(&effect.condition, state));
+        effects.filter(|effect| effect.value == value).map(|effect| effect.fact).collect()
+    };
+    let contradict = pairs()
+        .filter(|(one, other)| one != other)
+        .any(|(one, other)| !changes(true, one).is_disjoint(&changes(false, other)));
+    if !fits || contradict {
+        return None;
+    }
+    let mut next = state.clone();
+    for &action in step {
+        next.retain(|fact| !changes(false, action).contains(fact));
+    }
+    for &action in step {
+        next.extend(changes(true, action));
+    }
+    let next = derive(task, next);
+    holds(&concurrent.always, &next).then_some(next)
+}
+
+/// The least steps of a plan of several agents, and the least actions of those plans.
+fn least_steps(task: &Task) -> Option<(usize, usize)> {
+    let count = task.actions.len();
+    let steps: Vec<Vec<usize>> = (1..1_usize << count)
+        .map(|bits| (0..count).filter(|action| bits >> action & 1 == 1).collect())
+        .collect();
+    let mut states = BTreeMap::from([(derive(task, task.initial.iter().copied().collect()), 0)]);
+    let mut seen = states.clone();
+    for length in 0.. {
+        let goals = states.iter().filter(|(state, _)| holds(&task.goal, state));
+        if let Some(actions) = goals.map(|(_, &actions)| actions).min() {
+            return Some((length, actions));
+        }
+        let mut next: BTreeMap<State, usize> = BTreeMap::new();
+        for (state, actions) in &states {
+            for step in &steps {
+                let Some(after) = after_step(task, step, state) else { continue };
+                let actions = actions + step.len();
+                let known = next.entry(after).or_insert(actions);
+                *known = actions.min(*known);
+            }
+        }
+        next.retain(|state, _| !seen.contains_key(state));
+        if next.is_empty() {
+            break;
+        }
+        seen.extend(next.clone());
+        states = next;
+    }
+    None
+}
+
+/// The steps and the actions of a plan, if it is one.
+fn steps_of(task: &Task, plan: &[Vec<usize>]) -> Option<(usize, usize)> {
+    let mut state = derive(task, task.initial.iter().copied().collect());
+    for step in plan {
+        state = after_step(task, step, &state)?;
+    }
+    holds(&task.goal, &state).then(|| (plan.len(), plan.iter().map(Vec::len).sum()))
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn several_agents_get_a_plan_with_the_fewest_steps_and_actions(task in several_agents()) {
+        match solve(&task, true) {
+            Progress::Steps(plan) => {
+                prop_assert!(steps_of(&task, &plan).is_some(), "{plan:?}");
+                prop_assert_eq!(steps_of(&task, &plan), least_steps(&task));
+            }
+            progress => {
+                prop_assert_eq!(progress, Progress::NoPlan);
+                prop_assert_eq!(least_steps(&task), None);
+            }
+        }
+    }
+
+    #[test]
+    fn any_plan_of_several_agents_is_one_and_no_plan_is_true(task in several_agents()) {
+        match solve(&task, false) {
+            Progress::Steps(plan) => prop_assert!(steps_of(&task, &plan).is_some(), "{plan:?}"),
+            progress => {
+                prop_assert_eq!(progress, Progress::NoPlan);
+                prop_assert_eq!(least_steps(&task), None);
+            }
+        }
+    }
 
     #[test]
     fn any_plan_is_one_and_no_plan_is_true(task in task()) {
@@ -172,7 +307,14 @@ proptest! {
 fn lamp(facts: usize, rules: Vec<Rule>) -> Task {
     let effects = vec![Effect { condition: Formula::TRUE, fact: 0, value: true }];
     let action = Action { condition: Formula::TRUE, effects, cost: 1 };
-    Task { facts, initial: vec![], actions: vec![action], rules, goal: Formula::Fact(0) }
+    Task {
+        facts,
+        initial: vec![],
+        actions: vec![action],
+        rules,
+        goal: Formula::Fact(0),
+        concurrent: None,
+    }
 }
 
 #[test]
@@ -188,4 +330,12 @@ fn a_task_that_contradicts_itself_is_refused() {
         Some(Fault::NotStratified(1))
     );
     assert_eq!(fault(&lamp(3, vec![rule(1, not(2)), rule(2, Formula::Fact(0))])), None);
+    let together = |needs, excludes| {
+        let agents = vec![Some(0)];
+        let concurrent = Concurrent { agents, needs, excludes, always: Formula::TRUE };
+        fault(&Task { concurrent: Some(concurrent), ..lamp(1, vec![]) })
+    };
+    assert_eq!(together(vec![], vec![]), None);
+    assert_eq!(together(vec![(0, vec![2])], vec![]), Some(Fault::NoSuchAction(2)));
+    assert_eq!(together(vec![], vec![(1, 0)]), Some(Fault::NoSuchAction(1)));
 }

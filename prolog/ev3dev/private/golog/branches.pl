@@ -14,7 +14,8 @@
 :- use_module(programs, [condition_construct/1]).
 :- use_module(situation, [all_open/3, is_assumed/3, marked/3]).
 :- use_module(theory,
-              [ domain_list/3, has_clauses/2, is_fluent/2, is_kind/3,
+              [ derived_rule/4, domain_list/3, has_clauses/2, is_fluent/2,
+                is_kind/3,
                 is_sensing_action/2, located/3, proc_body/3
               ]).
 :- use_module(values, [known_or_declared/3, value/5]).
@@ -84,6 +85,12 @@ fluent_in(P, F, S, Context) :-
         is_kind(proc, P, M)
     ->  proc_body(P, Body, M),
         entered(condition, P, Context, Context1),
+        fluent_in(Body, F, S, Context1)
+    ;   \+ condition_construct(P),
+        is_kind(derived, P, M)
+    ->  catch(entered(derived, P, Context, Context1),
+              error(domain_error(golog_procedure, _), _), fail),
+        derived_rule(_, P, Body, M),
         fluent_in(Body, F, S, Context1)
     ;   is_kind(fluent, P, M),
         arguments_known(P, F, S, Context, M),

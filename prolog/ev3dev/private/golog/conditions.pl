@@ -18,7 +18,10 @@
                 negated/2
               ]).
 :- use_module(situation, [was_done/2]).
-:- use_module(theory, [domain_list/3, is_fluent/2, is_kind/3, proc_body/3]).
+:- use_module(theory,
+              [ derived_rule/4, domain_list/3, is_fluent/2, is_kind/3,
+                proc_body/3
+              ]).
 :- use_module(values,
               [ evaluated_arguments/4, fluent_value/4, known_or_declared/3,
                 known_value/4
@@ -100,7 +103,7 @@ holds_atom(P, S, Context) :-
         call_of(P, Goal, Context)
     ).
 
-%   The derived atoms of PDDL are the least that their rules make true. They
+%   The derived fluents are the least that their rules make true. They
 %   are found by rounds. In one each atom is asked for once, with what is
 %   derived so far; it is the last if it derives nothing new. The absence of
 %   an atom is asked for in higher strata only, when its own is complete.
@@ -110,7 +113,7 @@ holds_atom(P, S, Context) :-
     asked/4.                            % Hash, Id, Stratum, Atom
 
 derived_atom(P, Stratum, M) :-
-    findall(Stratum-P, M:pddl_derived(Stratum, P, _), Atoms0),
+    findall(Stratum-P, derived_rule(Stratum, P, _, M), Atoms0),
     sort(Atoms0, Atoms),
     member(Stratum-P, Atoms).
 
@@ -146,7 +149,7 @@ derived(P, Stratum, Id, S, X) :-
     ;   \+ asked(Hash, Id, Stratum, P),
         assertz(asked(Hash, Id, Stratum, P)),
         context_module(X, M),
-        M:pddl_derived(_, P, Condition),
+        derived_rule(_, P, Condition, M),
         holds(Condition, S, X)
     ->  assertz(derived(Hash, Id, P)),
         flag(ev3dev_golog_derived_now, Now, Now+1)

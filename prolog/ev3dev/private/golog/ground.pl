@@ -17,8 +17,8 @@
 :- use_module(effects, [equations_for/4]).
 :- use_module(programs, [condition_construct/1, fresh/4]).
 :- use_module(theory,
-              [ domain_list/3, has_clauses/2, is_fluent/2, is_kind/3,
-                is_sensing_action/2, names_fluent/2, proc_body/3
+              [ derived_rule/4, domain_list/3, has_clauses/2, is_fluent/2,
+                is_kind/3, is_sensing_action/2, names_fluent/2, proc_body/3
               ]).
 :- use_module('../errors/errors', [throw_error/3]).
 
@@ -161,8 +161,8 @@ exclude(E1, E2) :-
 
 ground_rules(M, Rules) :-
     findall(rule(F, E),
-            ( has_clauses(M, pddl_derived(_, _, _)),
-              M:pddl_derived(_, F, P),
+            ( derived_rule(_, F, P, M),
+              must_be_ground(F),
               ground_condition(P, M, E),
               E \== false ),
             Rules).

@@ -1,6 +1,7 @@
 :- module(ev3dev_golog_messages, []).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module('../errors/message_text', [message_text/2]).
 
 /** <module> The messages of library(ev3dev/golog)
 */
@@ -56,7 +57,11 @@ words(not_ended(Reason)) -->
     [ 'Golog: ' ],
     reason(Reason).
 words(failed_action(Action)) -->
-    [ 'Golog: the action ~p failed'-[Action] ].
+    { in_words(Action, Words) },
+    [ 'Golog: ~w failed'-[Words] ].
+words(part_failed(Agent, Action, Error)) -->
+    { message_text(Error, Text) },
+    [ 'Golog: ~p of ~p failed: ~w'-[Action, Agent, Text] ].
 words(no_exogenous(Action)) -->
     [ 'Golog: ~p is not an exogenous action of the domain; it is ignored'-
       [Action] ].
@@ -97,6 +102,12 @@ each_word([Word|Words]) -->
     [ '~w'-[Word] ],
     each_word(Words).
 
+reason(not_possible(Action, Rule)) -->
+    { is_rule(Rule) },
+    !,
+    { in_words(Action, Words) },
+    [ '~w is not possible: '-[Words] ],
+    rule(Rule, []).
 reason(not_possible(Action, Condition)) -->
     [ 'the action ~p is not possible: ~p does not hold'-
       [Action, Condition] ].
@@ -113,7 +124,8 @@ reason(gave_up(Limit, Far)) -->
     [ 'a search gave up at its limit of ~w ~w; '-[Most, Name] ],
     far(Far).
 reason(failed(Action)) -->
-    [ 'the action ~p failed'-[Action] ].
+    { in_words(Action, Words) },
+    [ '~w failed'-[Words] ].
 reason(exception(Error)) -->
     [ 'an exception: ~p'-[Error] ].
 
@@ -125,6 +137,9 @@ far(Far) -->
     [ 'it had tried ~D steps, at most ~D in a row, in ~2f s'-
       [Steps, Depth, Seconds] ].
 
+hindrance(Why, achieve(Goal, _)) -->
+    !,
+    hindrance(Why, achieve(Goal)).
 hindrance(no_action, Action) -->
     [ '~p is no action of the domain'-[Action] ].
 hindrance(not_possible([]), Action) -->
@@ -132,6 +147,14 @@ hindrance(not_possible([]), Action) -->
 hindrance(not_possible([Failure|Failures]), Action) -->
     [ '~p is not possible: '-[Action] ],
     failures([Failure|Failures]).
+hindrance(part(Part, no_action), _) -->
+    hindrance(no_action, Part).
+hindrance(part(Part, not_possible(Failures)), _) -->
+    hindrance(not_possible(Failures), Part).
+hindrance(not_a_step(Rule, Values), Action) -->
+    { in_words(Action, Words) },
+    [ '~w is not possible: '-[Words] ],
+    rule(Rule, Values).
 hindrance(priority(Other, Interrupts), Action) -->
     [ '~p has to wait: ~p has a higher priority'-[Action, Other] ],
     around(Interrupts).
@@ -161,6 +184,44 @@ hindrance(nothing, achieve(Goal)) -->
     [ 'There is a plan for ~p'-[Goal] ].
 hindrance(nothing, Action) -->
     [ '~p comes next: nothing stands in its way'-[Action] ].
+
+%   rule(+Rule, +Values)//: why actions are no step
+
+is_rule(together(_, _)).
+is_rule(excludes(_, _)).
+is_rule(one_at_a_time(_, _, _)).
+is_rule(one_value(_, _, _)).
+is_rule(agent_of(_)).
+is_rule(senses(_)).
+is_rule(always(_)).
+
+rule(together(Part, Other0), _) -->
+    { copy_term(Other0, Other), numbervars(Other, 0, _) },
+    [ '~p needs ~p in the same step'-[Part, Other] ].
+rule(excludes(Part, Other), _) -->
+    [ '~p excludes ~p'-[Part, Other] ].
+rule(one_at_a_time(Agent, Part, Other), _) -->
+    [ '~p and ~p are both actions of ~p, which does one at a time'-
+      [Part, Other, Agent] ].
+rule(one_value(Fluent, Part, Other), _) -->
+    [ '~p and ~p would give ~p two values'-[Part, Other, Fluent] ].
+rule(agent_of(Part), _) -->
+    [ '~p belongs to no agent, so it is a step by itself'-[Part] ].
+rule(senses(Part), _) -->
+    [ '~p senses, so it is a step by itself'-[Part] ].
+rule(always(Condition), Values) -->
+    [ '~p, which always/1 asks for, would not hold after it'-[Condition] ],
+    (   { Values == [] }
+    ->  []
+    ;   [ ', as '-[] ],
+        values(Values)
+    ).
+
+in_words(Action, Words) :-
+    (   is_list(Action)
+    ->  format(atom(Words), 'the step ~p', [Action])
+    ;   format(atom(Words), 'the action ~p', [Action])
+    ).
 
 set_by(initially(Place)) -->
     [ ' as at the beginning'-[] ],

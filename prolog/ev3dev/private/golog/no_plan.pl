@@ -1,5 +1,6 @@
 :- module(ev3dev_golog_no_plan,
-          [ no_plan/4                   % +Goal, -Why, +Situation, +Context
+          [ no_plan/5                   % +Goal, +Options, -Why, +Situation,
+                                        % +Context
           ]).
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, put_assoc/4]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
@@ -18,26 +19,31 @@ actions are tried that make nothing false, and each negation holds: what even
 these do not reach, no plan reaches.
 */
 
-%!  no_plan(+Goal, -Why, +Situation, +Context) is semidet.
+%!  no_plan(+Goal, +Options, -Why, +Situation, +Context) is semidet.
 %
-%   Why is no_plan(Conditions, Missing), or gave_up(Limit). Fails if there is
-%   a plan. library(ev3dev/golog) explains it, why_not/2.
+%   Options are those of achieve/2; only concurrent/1 counts here. Why is
+%   no_plan(Conditions, Missing), or gave_up(Limit). Fails if there is a plan.
+%   library(ev3dev/golog) explains it, why_not/2.
 
-no_plan(Goal, Why, S, X) :-
-    tried([Goal], S, X, Tried),
+no_plan(Goal, Options, Why, S, X) :-
+    (   memberchk(concurrent(Agents), Options)
+    ->  true
+    ;   Agents = false
+    ),
+    tried([Goal], Agents, S, X, Tried),
     (   Tried = gave_up(_)
     ->  Why = Tried
     ;   Tried == none,
         context_module(X, M),
         findall(P, condition_in(Goal, M, P), Ps),
-        needed(Ps, [], Needed, S, X),
+        needed(Ps, [], Agents, Needed, S, X),
         missing(Needed, Missing, S, X, M),
         Why = no_plan(Needed, Missing)
     ).
 
-tried(Ps, S, X, Tried) :-
+tried(Ps, Agents, S, X, Tried) :-
     unblock,
-    (   run(achieve(and(Ps), [ shortest(false),
+    (   run(achieve(and(Ps), [ shortest(false), concurrent(Agents),
                                gives_up(inferences(5000000)) ]),
             S, _, any, X)
     ->  Tried = plan
@@ -58,14 +64,14 @@ condition_in(P, M, C) :-
 
 %   Each condition that is left out has no part in it.
 
-needed([], Kept, Needed, _, _) :-
+needed([], Kept, _, Needed, _, _) :-
     reverse(Kept, Needed).
-needed([P|Ps], Kept, Needed, S, X) :-
+needed([P|Ps], Kept, Agents, Needed, S, X) :-
     append(Kept, Ps, Others),
     (   Others \== [],
-        tried(Others, S, X, none)
-    ->  needed(Ps, Kept, Needed, S, X)
-    ;   needed(Ps, [P|Kept], Needed, S, X)
+        tried(Others, Agents, S, X, none)
+    ->  needed(Ps, Kept, Agents, Needed, S, X)
+    ;   needed(Ps, [P|Kept], Agents, Needed, S, X)
     ).
 
 %   missing(+Conditions, -Missing, +Situation, +Context, +Module): Missing is
@@ -75,7 +81,7 @@ needed([P|Ps], Kept, Needed, S, X) :-
 missing(Ps, Missing, S, X, M) :-
     fluents_now(S, X, Values),
     (   ground_problem(M, and(Ps), Values, none,
-                       problem(Facts, Grounds0, Rules, Goal))
+                       problem(Facts, Grounds0, Rules, Goal, _))
     ->  findall(ground(F, If, [effect(true, F, true)]),
                 member(rule(F, If), Rules), Derived),
         append(Derived, Grounds0, Grounds),

@@ -8,7 +8,7 @@
                 ground_rules/2, only_relations/1
               ]).
 :- use_module(planning_task, [cost/4]).
-:- use_module(theory, [has_clauses/2, prepare/1]).
+:- use_module(theory, [derived_rule/4, has_clauses/2, prepare/1]).
 :- use_module('../errors/errors', [throw_error/3]).
 
 /** <module> A domain of Golog as PDDL
@@ -32,6 +32,7 @@ without parameters: ground.pl.
 pddl_parts(M, parts(Objects, Predicates, Rules, Actions, Init, Goal)) :-
     prepare(M),
     only_relations(M),
+    no_step_rules(M),
     (   M:proc(pddl_goal, Goal0)
     ->  true
     ;   throw_error(existence_error(pddl_goal, M), _,
@@ -54,7 +55,7 @@ pddl_parts(M, parts(Objects, Predicates, Rules, Actions, Init, Goal)) :-
     sort(Predicates0, Predicates),
     findall((Stratum-Head)-[and, Condition|Equations],
             ( member(rule(F, E), GroundRules),
-              once(M:pddl_derived(Stratum, F, _)),
+              once(derived_rule(Stratum, F, _, M)),
               head(F, Head, Equations),
               text_of(E, Condition0),
               ( Condition0 == true -> Condition = [and]
@@ -71,9 +72,21 @@ pddl_parts(M, parts(Objects, Predicates, Rules, Actions, Init, Goal)) :-
                  atom_of(F, E) ), Init),
     condition(Goal0, M, Goal).
 
+no_step_rules(M) :-
+    (   member(Rule, [together(_, _), excludes(_, _), always(_)]),
+        has_clauses(M, Rule),
+        clause(M:Rule, _)
+    ->  throw_error(domain_error(pddl_condition, Rule), _,
+                    'PDDL cannot say what agents do in one step')
+    ;   true
+    ).
+
 derived(M, F) :-
     has_clauses(M, pddl_derived(_, _, _)),
     clause(M:pddl_derived(_, F, _), _).
+derived(M, F) :-
+    has_clauses(M, derived(_, _)),
+    clause(M:derived(F, _), _).
 
 %   head(+Atom, -Head, -Equations): Head has a variable for each argument.
 

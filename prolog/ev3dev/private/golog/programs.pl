@@ -91,6 +91,7 @@ weak_construct(e(_, _)).
 weak_construct(time(_, _)).
 weak_construct(ttime(_, _)).
 weak_construct(sync(_)).
+weak_construct(together(_)).
 
 %!  parts(+Program0, ?Use, -Parts0, ?Parts, -Program) is semidet.
 %

@@ -8,7 +8,7 @@
 :- use_module('../basics/fields',
               [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module(library(assoc), [get_assoc/3, put_assoc/4]).
-:- use_module(library(lists), [reverse/2]).
+:- use_module(library(lists), [append/3, reverse/2]).
 :- use_module(context, [context_mode/2, context_module/2]).
 :- use_module(effects, [effect/4]).
 :- use_module(possible_effects, [effects_known/5]).
@@ -39,19 +39,34 @@ situation(History, Situation, Context) :-
 
 %!  done(+Entry, +Situation0, -Situation, +Context) is det.
 %
-%   Situation is what follows on Situation0 by Entry: an action, or a sensing
-%   result e(Fluent, Value) or e(Action, Outcome).
+%   Situation is what follows on Situation0 by Entry: an action, a list of
+%   actions that several agents do at the same time, or a sensing result
+%   e(Fluent, Value) or e(Action, Outcome).
 
 done(Entry, S0, S, Context) :-
     S0 = situation(H, C0, Values0, Open0, Done0),
     C is C0+1,
     effects(Entry, S0, Context, Effects),
     with_effects(Effects, C, S0, Context, Values0, Values, Open0, Open),
-    (   ground(Entry)
-    ->  put_assoc(Entry, Done0, true, Done)
-    ;   Done = Done0
-    ),
+    noted_done(Entry, Done0, Done),
     S = situation([Entry|H], C, Values, Open, Done).
+
+%   Of a step of several actions, also each of them
+
+noted_done(Entry, Done0, Done) :-
+    (   ground(Entry)
+    ->  put_assoc(Entry, Done0, true, Done1),
+        (   Entry = [_|_]
+        ->  all_noted(Entry, Done1, Done)
+        ;   Done = Done1
+        )
+    ;   Done = Done0
+    ).
+
+all_noted([], Done, Done).
+all_noted([A|As], Done0, Done) :-
+    put_assoc(A, Done0, true, Done1),
+    all_noted(As, Done1, Done).
 
 %!  entries_done(+Entries, +Situation0, -Situation, +Context) is det.
 %
@@ -66,7 +81,10 @@ entries_done([Entry|Entries], S0, S, Context) :-
 %   may bind them.
 
 effects(Entry, S0, Context, Effects) :-
-    (   context_mode(Context, known)
+    (   Entry = [_|_],
+        is_list(Entry)
+    ->  step_effects(Entry, S0, Context, Effects)
+    ;   context_mode(Context, known)
     ->  context_module(Context, M),
         effects_known(Entry, S0, Context, M, Effects)
     ;   ground(Entry)
@@ -74,6 +92,14 @@ effects(Entry, S0, Context, Effects) :-
     ;   findall(Entry-Effect, effect(Entry, S0, Context, Effect), Pairs),
         of_same(Pairs, Entry, Effects)
     ).
+
+%   Of several actions at the same time
+
+step_effects([], _, _, []).
+step_effects([A|As], S0, Context, Effects) :-
+    effects(A, S0, Context, Effects1),
+    step_effects(As, S0, Context, Effects2),
+    append(Effects1, Effects2, Effects).
 
 of_same([], _, []).
 of_same([Entry-Effect|Pairs], Entry, [Effect|Effects]) :-

@@ -28,11 +28,11 @@
                 made_possible/4, program_shown/2, simplified/3, step/5
               ]).
 :- use_module(waiting,
-              [ causes_wanted/1, clock/2, followed/1, for_causes/2, pause/4,
+              [ causes_wanted/1, clock/2, followed/1, pause/4,
                 robot_stopped/2
               ]).
 :- use_module(world,
-              [ agent_begins/1, agent_ends/1, executed/6, exogenous_seen/2,
+              [ agent_begins/1, agent_ends/1, executed/7, exogenous_seen/2,
                 exogenous_noticed/3, message_seen/2, queue_of/2, robot_kind/2,
                 sensing_entries/4, stops_run/1, watch_begins/1
               ]).
@@ -125,6 +125,14 @@ is_over(Cycle) :-
     Deadline \== infinite,
     clock(Robot, Now),
     Now >= Deadline.
+
+time_left(Cycle, Left) :-
+    Cycle = cycle(agent: agent(_, Robot, _, _), deadline: Deadline),
+    (   Deadline == infinite
+    ->  Left = infinite
+    ;   clock(Robot, Now),
+        Left is max(0, Deadline-Now)
+    ).
 
 % ---------------- RECORD
 
@@ -478,13 +486,13 @@ acted(A, E, S1, State0, R, State, Next) :-
     Agent = agent(M, Robot, _, _),
     situation_history(S0, History),
     traced(action(A), R),
-    Goal = executed(A, History, ev3dev_golog_run:is_to_end(E0, E, S0, R),
-                    Agent, Outcome, Value),
     (   causes_wanted(Robot)
-    ->  causes(A, S0, X, Causes),
-        for_causes(Causes, Goal)
-    ;   call(Goal)
+    ->  causes(A, S0, X, Causes)
+    ;   Causes = []
     ),
+    time_left(R, Left),
+    executed(A, History, ev3dev_golog_run:is_to_end(E0, E, S0, R),
+             for(Causes, Left), Agent, Outcome, Value),
     (   Outcome == done,
         sensing_entries(A, Value, M, Entries),
         ( Entries == [] ; nonvar(Value) )

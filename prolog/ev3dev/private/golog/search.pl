@@ -3,7 +3,7 @@
             found_path/4                % +Module, +Start, +End, -Moves
           ]).
 :- use_module(library(assoc), [empty_assoc/1, list_to_assoc/2]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(context,
               [ context_effort/2, context_module/2, context_option/2,
                 gave_up/2, searching/4
@@ -16,10 +16,14 @@
 :- use_module(values, [fluents_now/3]).
 :- use_module(effort, [counted/2, effort_id/2, how_far/2, polled/1]).
 :- use_module(visited_states, [state_key/4, states_forgotten/1, tried/5]).
-:- use_module(planning_task, [cost/4, task/6, task_plan/4]).
-:- use_module(theory, [has_clauses/2, is_kind/3, is_sensing_action/2]).
-:- use_module(transitions, [in_atom/3, is_final/3, step/5]).
-:- use_module('../errors/errors', [domain_error/2]).
+:- use_module(planning_task, [cost/4, task/7, task_plan/4]).
+:- use_module(steps, [agent_of/3]).
+:- use_module(theory,
+              [ has_agents/1, has_clauses/2, has_step_rules/1, is_kind/3,
+                is_sensing_action/2
+              ]).
+:- use_module(transitions, [in_atom/3, is_final/3, is_possible/3, step/5]).
+:- use_module('../errors/errors', [domain_error/2, throw_error/3]).
 :- use_module(simulated, [simulation_kept/1, tried_in_simulator/5]).
 
 /** <module> Search: plans that are found before they are carried out
@@ -516,14 +520,17 @@ achieve_step(Goal, Options, E, S, E1, S1, X) :-
 
 must_be_achieve_options(Options) :-
     (   is_list(Options),
-        \+ ( member(Option, Options), \+ is_achieve_option(Option) )
+        \+ ( member(Option, Options), \+ is_achieve_option(Option) ),
+        \+ ( memberchk(concurrent(true), Options),
+             memberchk(cheapest(true), Options) )
     ->  true
     ;   domain_error(golog_option, Options)
     ).
 
 is_achieve_option(Option) :-
     compound(Option),
-    (   ( Option = shortest(Truth) ; Option = cheapest(Truth) )
+    (   ( Option = shortest(Truth) ; Option = cheapest(Truth)
+        ; Option = concurrent(Truth) )
     ->  nonvar(Truth),
         memberchk(Truth, [true, false])
     ;   functor(Option, Name, 1),
@@ -544,25 +551,51 @@ achieving_plan(Goal, Options, S, Plan, X) :-
     fluents_now(S, X, Values),
     (   memberchk(cheapest(true), Options)
     ->  Costs = true,
-        Method = dijkstra
+        Method0 = dijkstra
     ;   Costs = false,
-        Method = breadth_first
+        Method0 = breadth_first
     ),
-    (   task(M, Goal, Values, Costs, Effort, Task)
+    (   memberchk(concurrent(true), Options)
+    ->  must_have_agents(M),
+        Agents = at_once,
+        Method = dijkstra
+    ;   Agents = by_turns,
+        Method = Method0
+    ),
+    (   \+ ( Costs == true, has_step_rules(M) ),
+        task(M, Goal, Values, Costs, Agents, Effort, Task)
     ->  (   Costs == false,
             memberchk(shortest(false), Options)
         ->  Shortest = false
         ;   Shortest = true
         ),
-        task_plan(Task, Shortest, Effort, Plan)
+        task_plan(Task, Shortest, Effort, Plan0),
+        plan_of(Agents, Plan0, Plan)
     ;   planner_loaded,
         Problem = problem(state(Values), goal,
                           [ successor(ev3dev_golog_search:
-                                          successor(Goal, Costs, X)) ]),
+                                          successor(Goal, Costs, Agents,
+                                                    X)) ]),
         ev3dev_search:plan(Method, Problem, Plan0),
         append(Plan, [end], Plan0)
     ),
     Plan = [_|_].
+
+%   Rules of steps hold for single actions, too: these are steps of one.
+
+plan_of(Agents, Plan0, Plan) :-
+    (   Agents == by_turns,
+        Plan0 = [[_|_]|_]
+    ->  append(Plan0, Plan)
+    ;   Plan = Plan0
+    ).
+
+must_have_agents(M) :-
+    (   has_agents(M)
+    ->  true
+    ;   throw_error(domain_error(golog_option, concurrent(true)), _,
+                    'the domain has no agent/1: it does not say who acts')
+    ).
 
 %!  found_path(+Module, +Start, +End, -Moves) is semidet.
 %
@@ -607,9 +640,9 @@ valued([], []).
 valued([F-V|Pairs], [F-v(0, V)|Valued]) :-
     valued(Pairs, Valued).
 
-:- public successor/7.
+:- public successor/8.
 
-successor(Goal, Costs, X, State0, Action, State, Cost) :-
+successor(Goal, Costs, Agents, X, State0, Action, State, Cost) :-
     State0 = state(_),
     situation_of(State0, S0),
     (   holds(Goal, S0, X)
@@ -619,13 +652,53 @@ successor(Goal, Costs, X, State0, Action, State, Cost) :-
     ;   context_effort(X, Effort),
         counted(0, Effort),
         context_module(X, M),
-        call(M:prim_action(Action)),
-        ground(Action),
-        polled(Effort),
-        is_kind(precondition, Action, M),
-        \+ is_sensing_action(Action, M),
-        step(Action, S0, [], S, X),
-        cost(Costs, Action, M, Cost0),
-        Cost is Cost0*1000000+1,        % a planner knows no cost of 0
+        (   Agents == at_once
+        ->  possible_step(Action, S0, S, X, M),
+            length(Action, Count),
+            Cost is 1000000+Count       % fewest steps, then fewest actions
+        ;   planned_action(Action, M, Effort),
+            step(Action, S0, [], S, X),
+            cost(Costs, Action, M, Cost0),
+            Cost is Cost0*1000000+1     % a planner knows no cost of 0
+        ),
         state_of(S, X, State)
     ).
+
+planned_action(Action, M, Effort) :-
+    call(M:prim_action(Action)),
+    ground(Action),
+    polled(Effort),
+    is_kind(precondition, Action, M),
+    \+ is_sensing_action(Action, M).
+
+%   possible_step(-Step, +Situation0, -Situation, +Context, +Module) is
+%   nondet: for each agent an action that is possible, or none; or an action
+%   of no agent.
+
+possible_step(Step, S0, S, X, M) :-
+    context_effort(X, Effort),
+    findall(R-A,
+            ( planned_action(A, M, Effort),
+              is_possible(A, S0, X),
+              ( agent_of(A, R0, M) -> R = by(R0) ; R = nobody ) ),
+            Pairs0),
+    sort(Pairs0, Pairs),
+    findall(A, member(nobody-A, Pairs), Alone),
+    findall(R, member(by(R)-_, Pairs), Rs0),
+    sort(Rs0, Rs),
+    (   member(A, Alone),
+        Step0 = [A]
+    ;   one_of_each(Rs, Pairs, Step0)
+    ),
+    polled(Effort),
+    Step0 = [_|_],
+    sort(Step0, Step),
+    step(together(Step), S0, [], S, X).
+
+one_of_each([], _, []).
+one_of_each([R|Rs], Pairs, Step) :-
+    (   member(by(R)-A, Pairs),
+        Step = [A|Step1]
+    ;   Step = Step1
+    ),
+    one_of_each(Rs, Pairs, Step1).

@@ -3,6 +3,7 @@
                                         % -Situation, +Context
             simulation_kept/1           % :Goal
           ]).
+:- use_module(library(lists), [member/2]).
 :- use_module(context, [context_module/2]).
 :- use_module(progression, [entries_done/4]).
 :- use_module(theory, [has_clauses/2]).
@@ -59,7 +60,14 @@ tried_in_simulator(A, _, S1, S, X) :-
     ).
 
 of_robot(A, M) :-
-    (   has_clauses(M, robot_action(_, _)),
+    (   has_clauses(M, robot_action(_, _, _)),
+        (   is_list(A)
+        ->  member(Part, A)
+        ;   Part = A
+        ),
+        \+ \+ M:robot_action(_, Part, _)
+    ->  true
+    ;   has_clauses(M, robot_action(_, _)),
         \+ \+ M:robot_action(A, _)
     ->  true
     ;   has_clauses(M, robot_sense(_, _, _)),

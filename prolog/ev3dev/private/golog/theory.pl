@@ -16,6 +16,10 @@
                                         % -Program
             restored/3,                 % +Condition, -Body, +Module
             has_situations/1,           % +Module
+            has_agents/1,               % +Module
+            has_step_rules/1,           % +Module
+            derived_rule/4,             % ?Stratum, ?Fluent, -Condition,
+                                        % +Module
             precondition/3,             % +Action, -Condition, +Module
             located_precondition/4,     % +Action, -Condition, -Place, +Module
             proc_body/3,                % +Call, -Body, +Module
@@ -23,9 +27,10 @@
             located/3,                  % +Module, +What, -Place
             proc_place/4,               % +Proc, +Term, +Module, -Place
             clause_place/2,             % +Ref, -Place
+            place_text/2,               % +Place, -Text
             domain_list/3               % +Sort, +Module, -Values
           ]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/3, member/2, select/4]).
 :- use_module(programs, [has_binder/1, renamed/2]).
 :- use_module('../errors/errors', [throw_error/3]).
 
@@ -44,6 +49,7 @@ fluents, actions and procedures.
     with_binder/3,                      % Name, Arity, Module
     prepared/2,                         % Module, Signature
     uncertain/1,                        % Module
+    stratum/4,                          % Name, Arity, Module, Stratum
     kept_initial/4,                     % Hash, Module, Fluent, Value
     kept_place/4.                       % Proc, Functor, Module, Place
 
@@ -98,6 +104,13 @@ vocabulary(rejects/5).
 vocabulary(primitive_action/1).
 vocabulary(restoreSitArg/3).
 vocabulary(restore_situation/3).
+vocabulary(agent/1).
+vocabulary(agent_of/2).
+vocabulary(together/2).
+vocabulary(excludes/2).
+vocabulary(always/1).
+vocabulary(derived/2).
+vocabulary(robot_action/3).
 
 %   What a domain of library(ev3dev/golog_classic) has, too. Its situation is
 %   a fluent. It is printed as S.
@@ -177,11 +190,14 @@ prepare(Module) :-
         retractall(kept_place(_, _, Module, _)),
         retractall(prepared(Module, _)),
         retractall(uncertain(Module)),
+        retractall(stratum(_, _, Module, _)),
         forall(kind(Kind, Head, Term),
                note_heads(Module, Kind, Head, Term)),
         conditions_checked(Module),
         note_binders(Module),
         note_possible_values(Module),
+        forall(checked(Module), true),
+        note_strata(Module),
         assertz(prepared(Module, Signature))
     ).
 
@@ -192,6 +208,7 @@ kind(Kind, Head, Term) :-
     signed(Kind, Head, Term).
 kind(relational, rel_fluent(F), F).
 kind(derived, pddl_derived(_, F, _), F).    % comes with actions
+kind(derived, derived(F, _), F).
 kind(proc, holds(P, _), P).         % the domain's own
 kind(held, holds(P, _), P).
 
@@ -211,6 +228,12 @@ signed(uncertain, settles(_, _, F, _, _), F).
 signed(uncertain, rejects(_, _, F, _, _), F).
 signed(uncertain, causes(_, F, _, _), F).
 signed(uncertain, senses(A), A).
+signed(agents, agent(R), R).
+signed(agent_of, agent_of(A, _), A).
+signed(step_rule, together(A, _), A).
+signed(step_rule, excludes(A, _), A).
+signed(step_rule, always(P), P).
+signed(derivation, derived(F, _), F).
 
 signature(Module, Signature) :-
     findall(Sign,
@@ -426,6 +449,120 @@ program_in(M0, E0, M, E) :-
 has_situations(M) :-
     noted(fluent, '$VAR', 1, M).
 
+%!  has_agents(+Module) is semidet.
+%!  has_step_rules(+Module) is semidet.
+%
+%   True if the domain names agents; if it says which actions need or exclude
+%   others in the same step, or what holds after each step.
+
+has_agents(M) :-
+    has_noted(agents, M).
+
+has_step_rules(M) :-
+    has_noted(step_rule, M).
+
+has_noted(Kind, M) :-
+    (   noted(Kind, _, _, M)
+    ->  true
+    ;   noted_any(Kind, M)
+    ).
+
+%!  derived_rule(?Stratum, ?Fluent, -Condition, +Module) is nondet.
+%
+%   Fluent holds if Condition does. The absence of a fluent is asked for in
+%   higher strata only.
+
+derived_rule(Stratum, F, Condition, M) :-
+    has_clauses(M, pddl_derived(_, _, _)),
+    M:pddl_derived(Stratum, F, Condition).
+derived_rule(Stratum, F, Condition, M) :-
+    has_clauses(M, derived(_, _)),
+    M:derived(F, Condition),
+    (   ground(F)
+    ->  true
+    ;   is_fluent(F, M)
+    *-> true
+    ;   true
+    ),
+    functor(F, Name, Arity),
+    stratum(Name, Arity, M, Stratum0),
+    Stratum = Stratum0.
+
+%   The strata of the derived fluents by their functors: that of a fluent is
+%   as high as those that its conditions ask for, and higher than those whose
+%   absence they ask for.
+
+note_strata(M) :-
+    findall(Head-Uses, derivation(M, Head, Uses), Derivations),
+    length(Derivations, Most),
+    findall(Head-0, member(Head-_, Derivations), Strata0),
+    sort(Strata0, Strata1),
+    strata(Strata1, Derivations, Most, Strata, M),
+    forall(member(Name/Arity-Stratum, Strata),
+           assertz(stratum(Name, Arity, M, Stratum))).
+
+derivation(M, Name/Arity, Uses) :-
+    has_clauses(M, derived(_, _)),
+    clause(M:derived(F, Condition), _),
+    functor(F, Name, Arity),
+    findall(Use, used(Condition, positive, [], M, Use), Uses0),
+    sort(Uses0, Uses).
+
+strata(Strata0, Derivations, Most, Strata, M) :-
+    (   member(Head-Uses, Derivations),
+        memberchk(Head-Stratum0, Strata0),
+        member(Sign-Used, Uses),
+        memberchk(Used-Stratum1, Strata0),
+        (   Sign == positive
+        ->  Least = Stratum1
+        ;   Least is Stratum1+1
+        ),
+        Least > Stratum0
+    ->  (   Least > Most
+        ->  Head = Name/Arity,
+            functor(F, Name, Arity),
+            located(M, derived(F), Where),
+            format(atom(Text), '~wit depends on its own absence', [Where]),
+            throw_error(domain_error(golog_derived, Head), _, Text)
+        ;   true
+        ),
+        once(select(Head-Stratum0, Strata0, Head-Least, Strata1)),
+        strata(Strata1, Derivations, Most, Strata, M)
+    ;   Strata = Strata0
+    ).
+
+%   used(+Condition, +Sign, +Procedures, +Module, -Use) is nondet: Condition
+%   asks for a derived fluent: Use is positive-Functor or negative-Functor.
+
+used(P, Sign, Procs, M, Use) :-
+    callable(P),
+    functor(P, Name, Arity),
+    (   is_kind(derived, P, M)
+    ->  Use = Sign-(Name/Arity)
+    ;   is_kind(proc, P, M)
+    ->  \+ memberchk(Name/Arity-Sign, Procs),
+        functor(General, Name, Arity),
+        clause(M:proc(General, Body), _),
+        used(Body, Sign, [Name/Arity-Sign|Procs], M, Use)
+    ;   P = all(_, _)
+    ->  negative_too(P, Procs, M, Use)
+    ;   P = all(_, _, _)
+    ->  negative_too(P, Procs, M, Use)
+    ;   memberchk(Name/Arity,
+                  [ neg/1, not/1, (\+)/1, impl/2, equiv/2, (-)/1, (=>)/2,
+                    (<=>)/2, (->)/2 ])
+    ->  negative_too(P, Procs, M, Use)
+    ;   compound(P),
+        arg(_, P, Q),
+        used(Q, Sign, Procs, M, Use)
+    ).
+
+%   What is not simply asked for counts as asked for by its absence.
+
+negative_too(P, Procs, M, Use) :-
+    arg(_, P, Q),
+    used(Q, negative, Procs, M, Use).
+
 %!  precondition(+Action, -Condition, +Module) is nondet.
 %!  located_precondition(+Action, -Condition, -Place, +Module) is nondet.
 %
@@ -446,6 +583,10 @@ located_precondition(A, Condition, Place, M) :-
         call(M:Body)
     ),
     clause_place(Ref, Place).
+
+%   checked(+Module) is nondet: step_checks.pl adds what must be right.
+
+:- multifile checked/1.
 
 %   The second argument of poss/2 is neither free nor a situation.
 
@@ -573,6 +714,7 @@ domain_list(Sort, Module, Values) :-
 %     - proc(Call)
 %     - action(Action)
 %     - fluent(Fluent)
+%     - derived(Fluent)
 
 located(Module, What, Text) :-
     (   about(What, Module, Head, Ref)
@@ -598,6 +740,9 @@ about(fluent(Fluent), Module, Head, Ref) :-
     clause_about(Fluent, [ prim_fluent(Term), rel_fluent(Term),
                            fun_fluent(Term) ], Term, Module, Head, Ref).
 
+about(derived(Fluent), Module, Head, Ref) :-
+    clause_about(Fluent, [derived(Term, _)], Term, Module, Head, Ref).
+
 clause_about(About, Heads, Term, Module, Head, Ref) :-
     functor(About, Name, Arity),
     member(Head, Heads),
@@ -616,7 +761,7 @@ stands_in(Term, Body) :-
     ).
 
 short(Head, Short) :-
-    Head =.. [Name, Term],
+    Head =.. [Name, Term|_],
     (   compound(Term)
     ->  functor(Term, TermName, Arity),
         Short =.. [Name, TermName/Arity]
@@ -658,6 +803,10 @@ proc_place(Proc, Term, Module, Place) :-
         assertz(kept_place(Proc, Name/Arity, Module, Place0))
     ),
     Place = Place0.
+
+%!  place_text(+Place, -Text) is det.
+%
+%   Text is `File:Line: `, or empty.
 
 place_text(File:Line, Text) :-
     format(atom(Text), '~w:~w: ', [File, Line]).

@@ -4,6 +4,7 @@
             is_final/3,                 % +Program, +Situation, +Context
             run/5,                      % +Program, +Situation0, -Situation,
                                         % +Length, +Context
+            is_possible/3,              % +Action, +Situation, +Context
             made_possible/4,            % +Action, -Condition, +Situation,
                                         % +Context
             is_preempted/4,             % +Program0, +Program, +Situation,
@@ -23,14 +24,16 @@
 :- use_module(conditions, [chosen/3, domain_value/4, holds/3]).
 :- use_module(progression, [done/4]).
 :- use_module(situation, [marked/3, situation_count/2, situation_history/2]).
+:- use_module(steps, [step_after/5]).
 :- use_module(values, [evaluated_arguments/4]).
 :- use_module(hints, [hint/3]).
 :- use_module(programs,
               [construct/1, fresh/4, mapped/3, parts/5, weak_construct/1]).
 :- use_module(theory,
-              [ is_exogenous/2, is_kind/3, located/3,
+              [ has_step_rules/1, is_exogenous/2, is_kind/3, located/3,
                 located_precondition/4, precondition/3, proc_body/3
               ]).
+:- use_module('../checks/checks', [must_be/2]).
 :- use_module('../errors/errors', [throw_error/3]).
 
 /** <module> The language: which steps a program can take
@@ -211,7 +214,18 @@ proc_step(E, S, E1, S1, X, M) :-
 
 action_step(A0, S, [], S1, X, M) :-
     action_now(A0, A, S, X, M),
-    done(A, S, S1, X).
+    (   has_step_rules(M)
+    ->  step_done(A, S, S1, X)
+    ;   done(A, S, S1, X)
+    ).
+
+step_done(Entry, S, S1, X) :-
+    step_after(Entry, S, S1, Why, X),
+    (   nonvar(Why)
+    ->  blocked(Entry, Why),
+        fail
+    ;   true
+    ).
 
 action_now(A0, A, S, X, M) :-
     evaluated_arguments(A0, A, S, X),
@@ -243,6 +257,16 @@ possible(A, S, X, M) :-
     ;   blocked(A, poss(A)),
         fail
     ).
+
+%!  is_possible(+Action, +Situation, +Context) is semidet.
+%
+%   True if poss/2 allows the ground Action, whatever others do at the same
+%   time.
+
+is_possible(A, S, X) :-
+    context_module(X, M),
+    possible(A, S, X, M),
+    !.
 
 %!  made_possible(+Action, -Condition, +Situation, +Context) is det.
 %
@@ -460,7 +484,24 @@ step_construct(time(E, Seconds), S, E1, S1, X) :-
 step_construct(ttime(E, Seconds), S, ttime(E1, Seconds), S1, X) :-
     step_construct(time(E, Seconds), S, E1, S1, X).
 step_construct(sync(Es), S, sync(Es1), S1, X) :-
-    together(Es, S, Es1, S1, _, X).
+    same_action(Es, S, Es1, S1, _, X).
+step_construct(together(As0), S, [], S1, X) :-
+    must_be(list, As0),
+    context_module(X, M),
+    actions_now(As0, As, S, X, M),
+    sort(As, Step),
+    Step = [_|_],
+    step_done(Step, S, S1, X).
+
+actions_now([], [], _, _, _).
+actions_now([A0|As0], [A|As], S, X, M) :-
+    (   var(A0)
+    ->  unbound_program
+    ;   is_kind(action, A0, M)
+    ->  action_now(A0, A, S, X, M)
+    ;   unknown_program(A0, X)
+    ),
+    actions_now(As0, As, S, X, M).
 
 %   step_within(+Note, +Program0, +Situation0, -Program, -Situation, +Context)
 %   is nondet: an online run knows also of the later steps what Note says. Of
@@ -603,13 +644,13 @@ is_construct(E, X) :-
 
 %   All programs take the same action; tests before it are each one's own.
 
-together([], S, [], S, _, _).
-together([E|Es], S, [E1|Es1], S1, A, X) :-
+same_action([], S, [], S, _, _).
+same_action([E|Es], S, [E1|Es1], S1, A, X) :-
     to_action(E, S, E1, S2, A, X),
     (   Es == []
     ->  Es1 = [],
         S1 = S2
-    ;   together(Es, S, Es1, S1, A, X)
+    ;   same_action(Es, S, Es1, S1, A, X)
     ).
 
 to_action(E, S, E1, S1, A, X) :-

@@ -1,5 +1,6 @@
 :- module(ev3dev_golog_waiting,
           [ run_watched/3,              % :Goal, :Watch, -Outcome
+            run_on_bricks/4,            % +Parts, +For, :Watch, -Outcome
             causes_wanted/1,            % +Robot
             followed/1,                 % +Event
             for_causes/2,               % +Causes, :Goal
@@ -9,6 +10,8 @@
             clock/2,                    % +Robot, -Seconds
             robot_stopped/2             % +Robot, +Cause
           ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(thread), [concurrent/3]).
 :- use_module(queue, [queue_wait/3]).
 
 /** <module> The waits of library(ev3dev/golog)
@@ -19,6 +22,7 @@ the robot, else `none`; then the library of the robot is not even loaded.
 
 :- meta_predicate
     run_watched(0, 0, -),
+    run_on_bricks(+, +, 0, -),
     for_causes(+, 0),
     guarded(+, 0).
 
@@ -53,6 +57,77 @@ watch(Watch, Ball, Listener) :-
     (   call(Watch)
     ->  ev3dev_waits:leave(Listener, Ball)
     ;   true
+    ).
+
+%!  run_on_bricks(+Parts, +For, :Watch, -Outcome) is det.
+%
+%   As run_watched/3, for the goals of several agents at the same time: each
+%   of Parts is part(Agent, Action, Goal), and Goal is called with the brick
+%   Agent in use. When all have succeeded, Outcome is `done`. When one has
+%   failed, or thrown an error, the moves of the others end, and Outcome is
+%   `failed`. The error is thrown if it says that the program is wrong, such
+%   as that of an unknown procedure. For is for(Causes, Seconds); Outcome is
+%   `interrupted` if it takes longer. Watch is called only while there is one
+%   part: several run in threads of their own.
+
+run_on_bricks(Parts, For, Watch, Outcome) :-
+    bricks_loaded,
+    length(Parts, Count),
+    findall(ev3dev_golog_waiting:run_part(Part, For), member(Part, Parts),
+            Goals),
+    catch(run_watched(concurrent(Count, Goals, []), Watch, Outcome),
+          golog_out_of_time, Outcome = interrupted).
+
+:- public run_part/2.
+
+run_part(part(Agent, Action, Goal), For) :-
+    catch(ev3dev_bricks:bricks_do([Agent],
+                                  ev3dev_golog_waiting:run_for(For, Goal)),
+          error(Formal, Where),
+          part_failed(Formal, Where, Agent, Action)).
+
+%   What is wrong in the program is an error of the run.
+
+part_failed(Formal, Where, Agent, Action) :-
+    (   is_mistake(Formal)
+    ->  throw(error(Formal, Where))
+    ;   Error = error(Formal, Where),
+        print_message(warning, golog(part_failed(Agent, Action, Error))),
+        fail
+    ).
+
+is_mistake(instantiation_error).
+is_mistake(type_error(_, _)).
+is_mistake(domain_error(_, _)).
+is_mistake(existence_error(procedure, _)).
+
+:- public run_for/2, over/2.
+
+run_for(for(Causes, Seconds), Goal) :-
+    (   Seconds == infinite
+    ->  for_causes(Causes, Goal)
+    ;   ev3dev_time:ev3_time(Now),
+        End is Now+Seconds,
+        ev3dev_waits:listening(0.015, ev3dev_golog_waiting:over(End),
+                               ev3dev_golog_waiting:for_causes(Causes, Goal))
+    ).
+
+over(End, Listener) :-
+    ev3dev_time:ev3_time(Now),
+    (   Now >= End
+    ->  ev3dev_waits:leave(Listener, golog_out_of_time)
+    ;   true
+    ).
+
+bricks_loaded :-
+    loaded,
+    (   current_predicate(ev3dev_bricks:bricks_do/2)
+    ->  true
+    ;   module_property(ev3dev_golog_waiting, file(Here)),
+        file_directory_name(Here, Directory),
+        atom_concat(Directory, '/../../bricks', Bricks),
+        load_files(ev3dev_golog_waiting:Bricks,
+                   [if(not_loaded), imports([])])
     ).
 
 %!  causes_wanted(+Robot) is semidet.

@@ -10,15 +10,17 @@
 :- use_module(branches, [fluent_in/4]).
 :- use_module(conditions, [holds/3]).
 :- use_module(ground, [conjunction/3]).
-:- use_module(progression, [situation/3]).
+:- use_module(progression, [done/4, situation/3]).
 :- use_module(situation, [set_by/3, situation_count/2, situation_history/2]).
 :- use_module(values, [evaluated_arguments/4, fluent_value/4, value/5]).
 :- use_module(programs, [fresh/4, in_books/2, parts/5]).
 :- use_module(theory,
-              [ clause_place/2, has_clauses/2, is_fluent/2, is_kind/3,
+              [ clause_place/2, has_clauses/2, has_step_rules/1,
+                is_fluent/2, is_kind/3,
                 located_precondition/4, precondition/3, proc_body/3,
                 restored/3
               ]).
+:- use_module(steps, [step_after/5]).
 :- use_module(transitions, [step/5]).
 
 /** <module> Why an action is not done, and why a fluent has its value
@@ -26,17 +28,49 @@
 
 %!  hindrance(+Action, +Program, -Why, +Situation, +Context) is semidet.
 %
-%   Why is the first that keeps Program from doing Action next in Situation.
-%   Fails if nothing does. What Why is, library(ev3dev/golog) says, why_not/2.
+%   Why is the first that keeps Program from doing Action next in Situation; a
+%   sorted list of actions is a step. Fails if nothing does. What Why is,
+%   library(ev3dev/golog) says, why_not/2.
 
 hindrance(A, E, Why, S, X) :-
     context_module(X, M),
+    (   A = [_|_],
+        is_list(A)
+    ->  (   member(Part, A),
+            not_possible(Part, Why0, S, X, M)
+        ->  Why = part(Part, Why0)
+        ;   not_a_step(A, Why0, S, X)
+        ->  Why = Why0
+        ;   hindered(A, E, Why, S, X)
+        )
+    ;   not_possible(A, Why0, S, X, M)
+    ->  Why = Why0
+    ;   has_step_rules(M),
+        not_a_step(A, Why0, S, X)
+    ->  Why = Why0
+    ;   hindered(A, E, Why, S, X)
+    ).
+
+not_possible(A, Why, S, X, M) :-
     (   \+ is_kind(action, A, M)
     ->  Why = no_action
-    ;   \+ \+ possible(A, S, X, M)
-    ->  hindered(A, E, Why, S, X)
-    ;   findall(Failure, failure(A, Failure, S, X, M), Failures),
+    ;   \+ possible(A, S, X, M),
+        findall(Failure, failure(A, Failure, S, X, M), Failures),
         Why = not_possible(Failures)
+    ).
+
+%   The rules of steps forbid it.
+
+not_a_step(A, not_a_step(Rule, Values), S, X) :-
+    step_after(A, S, _, Rule0, X),
+    nonvar(Rule0),
+    (   Rule0 = always(P)
+    ->  done(A, S, S1, X),
+        false_part(P, Part, S1, X),
+        values_in(Part, Values, S1, X),
+        Rule = always(Part)
+    ;   Rule = Rule0,
+        Values = []
     ).
 
 possible(A, S, X, M) :-

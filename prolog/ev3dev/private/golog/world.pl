@@ -9,8 +9,8 @@
             exogenous_seen/2,           % +Agent, -Actions
             stops_run/1,                % +Code
             message_seen/2,             % +Message, +Agent
-            executed/6,                 % +Action, +History, :Watch, +Agent,
-                                        % -Outcome, -Value
+            executed/7,                 % +Action, +History, :Watch, +For,
+                                        % +Agent, -Outcome, -Value
             sensing_entries/4,          % +Action, +Value, +Module, -Entries
             run_directly/4,             % +Action, +Module, -Outcome, -Value
             ask/2,                      % +Action, -Value
@@ -23,7 +23,9 @@
               ]).
 :- use_module(queue,
               [queue_end/1, queue_new/1, queue_put/2, queue_take/2]).
-:- use_module(waiting, [guarded/2, run_watched/3]).
+:- use_module(steps, [agent_of/3]).
+:- use_module(waiting,
+              [for_causes/2, guarded/2, run_on_bricks/4, run_watched/3]).
 :- use_module('../run/brick', [brick/1, of_brick/1]).
 :- use_module('../errors/errors', [throw_error/3]).
 :- use_module('../errors/frames', [goal_of_program/1]).
@@ -52,8 +54,8 @@ ev3dev_brick:forget(Brick) :-
 %   has to be asked for exogenous actions, else `none`.
 
 robot_kind(Module, Robot) :-
-    (   member(Head, [ robot_action(_, _), robot_sense(_, _, _),
-                       robot_exog(_, _) ]),
+    (   member(Head, [ robot_action(_, _), robot_action(_, _, _),
+                       robot_sense(_, _, _), robot_exog(_, _) ]),
         has_clauses(Module, Head)
     ->  Robot = robot
     ;   has_clauses(Module, exog_occurs(_))
@@ -288,14 +290,60 @@ code_of_number(Number, Module, Action) :-
 
 % ---------------- EXECUTION
 
-%!  executed(+Action, +History, :Watch, +Agent, -Outcome, -Value) is det.
+%!  executed(+Action, +History, :Watch, +For, +Agent, -Outcome,
+%!           -Value) is det.
 %
 %   Execute Action in the world. Outcome is `done`, `failed` or `interrupted`.
-%   Value is what the action sensed, or unbound.
+%   Value is what the action sensed, or unbound. Action may also be a step, a
+%   list of actions. For is for(Causes, Seconds): its causes in the journal,
+%   and the time that is left, or `infinite`.
 
-:- meta_predicate executed(+, +, 0, +, -, -).
+:- meta_predicate executed(+, +, 0, +, +, -, -).
 
-executed(A, H, Watch, Agent, Outcome, Value) :-
+executed(A, H, Watch, For, Agent, Outcome, Value) :-
+    Agent = agent(M, _, _, _),
+    (   on_bricks(A, M, Parts)
+    ->  run_on_bricks(Parts, For, Watch, Outcome)
+    ;   A = [_|_],
+        is_list(A)
+    ->  each_executed(A, H, Watch, For, Agent, Outcome)
+    ;   For = for(Causes, _),
+        for_causes(Causes,
+                   ev3dev_golog_world:executed_here(A, H, Watch, Agent,
+                                                    Outcome, Value))
+    ).
+
+%   on_bricks(+Action, +Module, -Parts) is semidet: Parts is a list of
+%   part(Agent, Action, Goal), one for each action of a step.
+
+on_bricks(A, M, Parts) :-
+    has_clauses(M, robot_action(_, _, _)),
+    (   is_list(A)
+    ->  parts(A, M, Parts),
+        Parts = [_|_]
+    ;   parts([A], M, Parts)
+    ).
+
+parts([], _, []).
+parts([A|As], M, [part(R, A, M:Goal)|Parts]) :-
+    agent_of(A, R, M),
+    M:robot_action(R, A, Goal),
+    !,
+    parts(As, M, Parts).
+
+%   Nothing says how they are done at the same time: one after the other.
+
+each_executed([], _H, _Watch, _For, _Agent, done).
+each_executed([A|As], H, Watch, For, Agent, Outcome) :-
+    executed(A, H, Watch, For, Agent, Outcome0, _),
+    (   Outcome0 == done
+    ->  each_executed(As, H, Watch, For, Agent, Outcome)
+    ;   Outcome = Outcome0
+    ).
+
+:- public executed_here/6.
+
+executed_here(A, H, Watch, Agent, Outcome, Value) :-
     Agent = agent(M, _, _, _),
     (   has_clauses(M, robot_sense(_, _, _)),
         M:robot_sense(A, Value0, Goal)
@@ -350,7 +398,9 @@ dry(A, Message, M, done, Value) :-
 %   Execute Action by the robot's table, else not at all.
 
 run_directly(A, M, Outcome, Value) :-
-    (   has_clauses(M, robot_sense(_, _, _)),
+    (   on_bricks(A, M, Parts)
+    ->  run_on_bricks(Parts, for([], infinite), fail, Outcome)
+    ;   has_clauses(M, robot_sense(_, _, _)),
         M:robot_sense(A, Value, Goal)
     ->  outcome(M:Goal, Outcome)
     ;   has_clauses(M, robot_action(_, _)),
