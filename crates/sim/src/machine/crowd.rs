@@ -9,8 +9,7 @@ use crate::machine::Machine;
 use crate::mechanics::pair::{self, Rider};
 use crate::mechanics::thing::Thing;
 use crate::world::obstacle::Obstacle;
-use crate::world::{Hull, ItemId, SpecError};
-use ev3_motion::Pose;
+use crate::world::{ItemId, SpecError};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -73,13 +72,14 @@ pub(crate) fn share_world(machines: &mut [&mut Machine], changed: usize) {
     see_each_other(machines);
 }
 
+fn outline(machine: &Machine) -> Obstacle {
+    Obstacle::robot(id_of(machine.number), machine.robot.hull, &machine.body.pose)
+}
+
 /// Where robots and things are now.
 fn see_each_other(machines: &mut [&mut Machine]) {
-    let robot = |machine: &&mut Machine| {
-        Obstacle::robot(id_of(machine.number), machine.robot.hull, &machine.body.pose)
-    };
     if machines.len() > 1 {
-        let robots: Arc<Vec<_>> = Arc::new(machines.iter().map(robot).collect());
+        let robots: Arc<Vec<_>> = Arc::new(machines.iter().map(|it| outline(it)).collect());
         for machine in &mut *machines {
             machine.robots = Arc::clone(&robots);
         }
@@ -178,11 +178,18 @@ fn share_things(machines: &mut [&mut Machine], things: &Arc<Vec<Thing>>) {
 fn islands(machines: &[&mut Machine], things: &[Thing]) -> Vec<Option<usize>> {
     let count = machines.len();
     let groups = groups(machines);
-    let robot = |index: usize| {
-        let Machine { number, robot, body, .. } = &*machines[index];
-        Obstacle::robot(id_of(*number), robot.hull, &body.pose)
+    let robots: Vec<_> = machines.iter().map(|machine| outline(machine)).collect();
+    // What moved in the last tick was seen after it.
+    let outlines: Vec<_> = robots.iter().chain(&*machines[0].thing_obstacles).collect();
+    let hull_of = |index: usize| match index.checked_sub(count) {
+        None => (machines[index].robot.hull, &machines[index].body.pose),
+        Some(thing) => (things[thing].hull, &things[thing].body.pose),
     };
-    let near = |outline: &Obstacle, hull: Hull, pose: &Pose| outline.gap(hull, pose) < THING_NEAR;
+    let near = |here: usize, other: usize| {
+        let (hull, pose) = hull_of(other);
+        outlines[here].may_be_within(outlines[other], THING_NEAR)
+            && outlines[here].is_nearer(hull, pose, THING_NEAR)
+    };
     let mut islands = vec![None; count + things.len()];
     for start in 0..islands.len() {
         let is_awake = match start.checked_sub(count) {
@@ -195,8 +202,6 @@ fn islands(machines: &[&mut Machine], things: &[Thing]) -> Vec<Option<usize>> {
         islands[start] = Some(start);
         let mut open = vec![start];
         while let Some(here) = open.pop() {
-            let outline =
-                here.checked_sub(count).map_or_else(|| robot(here), |i| things[i].obstacle());
             for (other, island) in islands.iter_mut().enumerate() {
                 if island.is_some() {
                     continue;
@@ -208,8 +213,7 @@ fn islands(machines: &[&mut Machine], things: &[Thing]) -> Vec<Option<usize>> {
                     None if here < count => groups[here] == groups[other],
                     None if holds(other, here - count) => true,
                     Some(thing) if here < count && holds(here, thing) => true,
-                    None => near(&outline, machines[other].robot.hull, &machines[other].body.pose),
-                    Some(thing) => near(&outline, things[thing].hull, &things[thing].body.pose),
+                    _ => near(here, other),
                 };
                 if is_near {
                     *island = Some(start);

@@ -9,7 +9,7 @@
 //! impulses of the last one.
 use super::{Body, CONTACT_OVER, Load, MARGIN, ROUNDS, SOLVED, STRIDE, Step, TICK_SECONDS};
 use crate::ItemId;
-use crate::mechanics::limit::{Limit, SKIN, Speeds, Touch, add, dot};
+use crate::mechanics::limit::{Limit, SKIN, Speeds, Touch};
 use crate::mechanics::warm::Key;
 use crate::world::Hull;
 use crate::world::obstacle::{Contact, Obstacle};
@@ -50,18 +50,15 @@ impl Rider<'_> {
         self.body.floor.is_some()
     }
 
-    /// Where it is nearer than this to another one.
-    fn contacts(&self, other: &Obstacle, margin: f64) -> Vec<Contact> {
-        let frame = self.body.pose.frame();
-        let mut contacts = Vec::new();
-        if other.at_least(frame.translation.vector, self.hull.reach()) < margin {
-            other.touch_points(self.hull, &frame, 0, |contact| {
+    /// Where it is nearer than this to another one. The outlines are its own and the other one's.
+    fn contacts(&self, [own, other]: [&Obstacle; 2], margin: f64, mut each: impl FnMut(Contact)) {
+        if own.may_be_within(other, margin) {
+            other.touch_points(self.hull, &self.body.pose.frame(), 0, |contact| {
                 if contact.gap < margin {
-                    contacts.push(contact);
+                    each(contact);
                 }
             });
         }
-        contacts
     }
 
     fn stop_at(&mut self, pose: Pose) {
@@ -92,11 +89,11 @@ struct Pair {
     key: Key,
 }
 
-/// What a limit of two bodies does: the gain of the second one, how both answer, and how much an
-/// impulse changes the limited speed.
+/// What a limit of two bodies does: their gains, how they answer, and how much an impulse changes
+/// the limited speed.
 struct Both {
-    gain: Speeds,
-    answers: [Speeds; 2],
+    gains: [[f64; 3]; 2],
+    answers: [[f64; 3]; 2],
     softness: f64,
 }
 
@@ -229,13 +226,13 @@ fn advance_part(riders: &mut [Rider], joints: &mut [Joint], seconds: f64) {
 }
 
 fn pairs(riders: &[Rider], steps: &[Step], seconds: f64) -> Vec<Pair> {
-    let obstacles: Vec<_> = riders.iter().map(Rider::obstacle).collect();
+    let outlines: Vec<_> = riders.iter().map(Rider::obstacle).collect();
     let mut pairs = Vec::new();
-    for (second, obstacle) in obstacles.iter().enumerate() {
+    for (second, outline) in outlines.iter().enumerate() {
         for (first, rider) in riders[..second].iter().enumerate() {
             let other = &riders[second];
             let margin = if rider.is_thing() || other.is_thing() { NEAR } else { MARGIN };
-            for contact in rider.contacts(obstacle, margin) {
+            rider.contacts([&outlines[first], outline], margin, |contact| {
                 let Contact { gap, normal, point, corner, .. } = contact;
                 let [push, rub] = [normal, contact.along()].map(|into| {
                     let gains = [rider.body.gain(point, into), other.body.gain(point, -into)];
@@ -244,8 +241,7 @@ fn pairs(riders: &[Rider], steps: &[Step], seconds: f64) -> Vec<Pair> {
                 let ((push, pushed), (rub, rubbed)) = (push, rub);
                 let mut push = Limit::push(push, gap, seconds);
                 let bounce = rider.body.bounce.max(other.body.bounce);
-                let speed =
-                    dot(push.gain, steps[first].speeds) + dot(pushed.gain, steps[second].speeds);
+                let speed = pushed.speed([first, second], steps);
                 push.bounce(speed, gap, bounce, seconds);
                 pairs.push(Pair {
                     bodies: [first, second],
@@ -255,17 +251,38 @@ fn pairs(riders: &[Rider], steps: &[Step], seconds: f64) -> Vec<Pair> {
                     gap,
                     key: Key([rider.id.0, other.id.0, corner]),
                 });
-            }
+            });
         }
     }
     pairs
 }
 
+/// The part of a speed, or of an answer, that is of the body; no shaft takes part here.
+fn of_body([_, _, aside, ahead, turn]: Speeds) -> [f64; 3] {
+    [aside, ahead, turn]
+}
+
+fn dot([a, b, c]: [f64; 3], [_, _, aside, ahead, turn]: &Speeds) -> f64 {
+    a * aside + b * ahead + c * turn
+}
+
+fn add([_, _, aside, ahead, turn]: &mut Speeds, [a, b, c]: [f64; 3], step: f64) {
+    *aside += a * step;
+    *ahead += b * step;
+    *turn += c * step;
+}
+
 impl Both {
     fn new(gains: [Speeds; 2], steps: [&Step; 2]) -> Both {
-        let answers = [0, 1].map(|i| steps[i].answer.of(gains[i]));
-        let softness = dot(gains[0], answers[0]) + dot(gains[1], answers[1]);
-        Both { gain: gains[1], answers, softness }
+        let [first, second] = [0, 1].map(|i| steps[i].answer.of(gains[i]));
+        let gains = gains.map(of_body);
+        let softness = dot(gains[0], &first) + dot(gains[1], &second);
+        Both { gains, answers: [first, second].map(of_body), softness }
+    }
+
+    /// How fast both are at it.
+    fn speed(&self, [first, second]: [usize; 2], steps: &[Step]) -> f64 {
+        dot(self.gains[0], &steps[first].speeds) + dot(self.gains[1], &steps[second].speeds)
     }
 
     /// Gives both bodies an impulse.
@@ -275,10 +292,9 @@ impl Both {
     }
 
     /// Gives both bodies the impulse that is missing.
-    fn apply(&self, limit: &mut Limit, [first, second]: [usize; 2], steps: &mut [Step]) -> f64 {
-        let speed = dot(limit.gain, steps[first].speeds) + dot(self.gain, steps[second].speeds);
-        let step = limit.step(speed, self.softness);
-        self.give(step, [first, second], steps);
+    fn apply(&self, limit: &mut Limit, bodies: [usize; 2], steps: &mut [Step]) -> f64 {
+        let step = limit.step(self.speed(bodies, steps), self.softness);
+        self.give(step, bodies, steps);
         (step * self.softness).abs()
     }
 }
@@ -322,16 +338,19 @@ fn report(riders: &mut [Rider], pairs: &[Pair]) {
 
 /// Rounding, and contacts whose direction changes on the way, may lead too near.
 fn part_them(riders: &mut [Rider], before: &[Pose]) {
+    let mut outlines: Vec<_> = riders.iter().map(Rider::obstacle).collect();
     for push in 0..=PUSHES {
         let mut is_free = true;
         for second in 1..riders.len() {
             for first in 0..second {
-                let contacts = riders[first].contacts(&riders[second].obstacle(), SKIN);
-                let nearest = contacts.into_iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
-                let Some(Contact { gap, normal, .. }) = nearest.filter(|c| c.gap < SKIN / 2.0)
-                else {
-                    continue;
-                };
+                let mut nearest: Option<Contact> = None;
+                let both = [&outlines[first], &outlines[second]];
+                riders[first].contacts(both, SKIN / 2.0, |contact| {
+                    if nearest.is_none_or(|nearest| contact.gap < nearest.gap) {
+                        nearest = Some(contact);
+                    }
+                });
+                let Some(Contact { gap, normal, .. }) = nearest else { continue };
                 is_free = false;
                 if push == PUSHES {
                     riders[first].stop_at(before[first]);
@@ -340,6 +359,9 @@ fn part_them(riders: &mut [Rider], before: &[Pose]) {
                     let half = normal * ((SKIN - gap) / 2.0);
                     riders[first].shift(half);
                     riders[second].shift(-half);
+                }
+                for moved in [first, second] {
+                    outlines[moved] = riders[moved].obstacle();
                 }
             }
         }

@@ -205,6 +205,20 @@ impl Obstacle {
         Some(ends.into_iter().flatten().sum())
     }
 
+    /// False only if another one is farther away than this, in cm: cheap.
+    pub(crate) fn may_be_within(&self, other: &Obstacle, distance: f64) -> bool {
+        let way = self.frame.translation.vector - other.frame.translation.vector;
+        let most = self.reach + other.reach + distance;
+        way.dot(&way) <= most * most
+    }
+
+    /// Whether a hull is nearer than this, in cm.
+    pub(crate) fn is_nearer(&self, hull: Hull, pose: &Pose, distance: f64) -> bool {
+        let mut is_nearer = false;
+        self.touch_points(hull, &pose.frame(), 0, |contact| is_nearer |= contact.gap < distance);
+        is_nearer
+    }
+
     /// How far a hull is from it, in cm; below 0 where they overlap. It may be less than that if it
     /// is far.
     pub(crate) fn gap(&self, hull: Hull, pose: &Pose) -> f64 {
