@@ -1494,9 +1494,10 @@ group('panels', ROOM, '', (it) => {
     }
     await it.page.evaluate(() => localStorage.removeItem('ev3dev-panels'));
     const page = await open(browser, it.url, { width: 390, height: 844, phone: true });
+    await shows(page, (t) => t.ports.length === 8 && t.charts.length, 'what the cards have');
     const whole = await page.evaluate(() => document.body.scrollHeight);
     for (const name of ['world', 'ports', 'brick']) await page.tap(`.${name}-card .fold`);
-    assert.ok(await page.evaluate(() => document.body.scrollHeight) < whole - 800);
+    await until(async () => await page.evaluate(() => document.body.scrollHeight) < whole - 800, 'a shorter page');
     await page.evaluate(() => localStorage.removeItem('ev3dev-panels'));
     await free(page)();
   });
