@@ -236,6 +236,7 @@ tests([unknown_procedures, signatures, libraries, own_help, help_index],
       [help, errors]).
 tests([schedule, time_limits],            [sim_time, sim]).
 tests([ports],                            [ports, hints]).
+tests([policy],                           [grid_policy]).
 tests([prompt],                           [events]).
 tests([planning_task, ground, pddl_grammar, pddl_text, s_expressions], [pddl]).
 tests([roadmap_arguments],                [roadmap, navigation]).

@@ -283,7 +283,7 @@ control(Module:Options) :-
                     [until, timeout, reason, period, layers, trace],
                     Options),
     option(period(Period0), Options, 0.05),
-    number_value(seconds, Period0, Period),
+    number_value(positive_number, Period0, Period),
     timeout_option(Options, Timeout),
     option(until(Until0), Options, fail),
     translated(Until0, [], Until),

@@ -19,7 +19,7 @@ const EXAMPLES = {
   obstacle_avoidance: 60, grid_navigation: 60, braitenberg: 60, line_following: 30, square: 30, slalom: 30,
   remote_control: 10, thermometer: 10, traffic_light: 60, lost: 30, grid_lost: 30, explore_room: 30,
   golog_elevator: 40, golog_rescue: 30, golog_wumpus: 30,
-  rules_light_seeker: 30, rules_line_follower: 30, rules_sumo: 30, rules_traffic_light: 60, rules_processes: 40, rules_wander: 30,
+  rules_light_seeker: 30, rules_line_follower: 30, rules_sumo: 30, rules_traffic_light: 60, rules_processes: 40, rules_wander: 30, three_places: 30, pushed: 30,
   backtracking: 30, clear_the_ring: 60, sort_parcels: 60, goal: 60, random_programs: 260,
 };
 
