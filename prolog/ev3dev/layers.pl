@@ -85,21 +85,31 @@ user:term_expansion((Head <- Body), Clauses) :-
     ev3dev_layers:is_controller,
     ev3dev_layers:rule_clauses(Head, Body, Clauses).
 user:term_expansion(assign(Fluent, Value), _) :-
-    ev3dev_layers:is_controller,
-    ev3dev_layers:no_arrow(assign(Fluent, Value)).
+    ev3dev_layers:must_have_arrow(assign(Fluent, Value)).
 user:term_expansion(set(Port, Speed), _) :-
-    ev3dev_layers:is_controller,
-    ev3dev_layers:no_arrow(set(Port, Speed)).
+    ev3dev_layers:must_have_arrow(set(Port, Speed)).
 user:term_expansion((assign(Fluent, Value) :- _), _) :-
-    ev3dev_layers:is_controller,
-    ev3dev_layers:no_arrow(assign(Fluent, Value)).
+    ev3dev_layers:must_have_arrow(assign(Fluent, Value)).
 user:term_expansion((set(Port, Speed) :- _), _) :-
-    ev3dev_layers:is_controller,
-    ev3dev_layers:no_arrow(set(Port, Speed)).
+    ev3dev_layers:must_have_arrow(set(Port, Speed)).
 
 is_controller :-
     prolog_load_context(module, Module),
     predicate_property(Module:control(_), imported_from(ev3dev_layers)).
+
+%   Other modules see what `user` imports, and may have predicates of these
+%   names. So a module that has no rule yet is not meant.
+
+must_have_arrow(Head) :-
+    is_controller,
+    prolog_load_context(module, Module),
+    (   Module == user
+    ->  true
+    ;   Rule = '$ev3dev layer'(_, _, _),
+        predicate_property(Module:Rule, number_of_clauses(_)),
+        \+ predicate_property(Module:Rule, imported_from(_))
+    ),
+    no_arrow(Head).
 
 no_arrow(Head) :-
     shown(Head, Shown),
@@ -194,7 +204,7 @@ at_places([I|Is], Variables, [V|Vs]) :-
 
 % ---------------- LAYERS
 
-:- dynamic layer_begun/3.               % Source, Stream, Name
+:- dynamic layer_begun/4.               % Source, Stream, Line, Name
 
 %!  layer(+Name) is det.
 %
@@ -206,19 +216,29 @@ at_places([I|Is], Variables, [V|Vs]) :-
 
 layer(Name) :-
     must_be(atom, Name),
-    (   prolog_load_context(stream, Stream),
-        prolog_load_context(source, Source)
-    ->  retractall(layer_begun(Source, _, _)),
-        assertz(layer_begun(Source, Stream, Name))
+    (   loading(Source, Stream, Line)
+    ->  retractall(layer_begun(Source, _, _, _)),
+        assertz(layer_begun(Source, Stream, Line, Name))
     ;   throw_error(permission_error(begin, layer, Name), _,
                     'it is a directive of a file')
     ).
 
+%   A file that is loaded again has another stream. Up to 7.2.3 one that is
+%   loaded from a stream has none.
+
+loading(Source, Stream, Line) :-
+    source_location(_, Line),
+    prolog_load_context(source, Source),
+    (   prolog_load_context(stream, Stream)
+    ->  true
+    ;   Stream = none
+    ).
+
 layer_of_source(Layer) :-
-    (   prolog_load_context(source, Source),
-        prolog_load_context(stream, Stream)
-    ->  (   layer_begun(Source, Stream, Layer)
-        ->  true
+    (   loading(Source, Stream, Line)
+    ->  (   layer_begun(Source, Stream, Begin, Layer0),
+            Begin =< Line
+        ->  Layer = Layer0
         ;   file_base_name(Source, Base),
             file_name_extension(Layer, _, Base)
         )
