@@ -81,7 +81,7 @@ test(each_work_has_its_examples, true(Missing == [])) :-
               exclude(==(""), Parts, Examples) ),
             Rows),
     length(Rows, Count),
-    assertion(Count >= 11),
+    assertion(Count >= 12),
     findall(Cited-Example,
             ( member(Cited-Examples, Rows),
               (   Examples == [], Example = none
