@@ -218,12 +218,14 @@ start(Options0) :-
     ;   Stop = true,
         Options = Options0
     ),
+    (   memberchk(clock(_), Options)
+    ->  Clocked = Options
+    ;   Clocked = [clock(virtual)|Options]
+    ),
     world(World),
     robot(Robot),
     setup_call_cleanup(
-        ( append(Options, [clock(virtual), robots([anna-Robot, bob-Robot])],
-                 All),
-          sim_start(World, All) ),
+        sim_start(World, [robots([anna-Robot, bob-Robot])|Clocked]),
         carry_together(Stop),
         forall(member(R, [anna, bob]), brick_close(R))).
 

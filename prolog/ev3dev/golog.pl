@@ -100,6 +100,21 @@ robot_sense(look, D, us_dist_cm(_, D)).
 robot_exog(bump, touch(_, 1)).
 ```
 
+Several robots may act at the same time. Then a step is a list of actions, and
+robot_action(R, Action, Goal) is what the robot R does:
+
+```
+agent(anna).  agent(bob).
+together(lift(anna), lift(bob)).        % each only with the other one
+together(lift(bob), lift(anna)).
+robot_action(_, lift(_), grip).
+```
+
+```
+?- do(achieve(lifted, [concurrent(true)]), History).
+History = [[lift(anna), lift(bob)]].
+```
+
 docs/cognitive-robotics.md explains all of it, and where the constructs come
 from.
 
@@ -149,7 +164,8 @@ order and in several files.
 %     - reason(-Reason)
 %       Do not fail, and do not throw an error of an action, but report why
 %       the run ended: `final`, not_possible(Action, Condition) if only
-%       actions were left whose precondition does not hold, gave_up(Limit,
+%       actions were left whose precondition does not hold (in the place of
+%       Condition may be a Rule for steps, see why_not/2), gave_up(Limit,
 %       Far) if a search gave up at its Limit and nothing else was left,
 %       no_step(Program) if nothing at all was, `stopped` by abort/0,
 %       `timeout`, `limit`, failed(Action), or exception(Error). Far says how
@@ -157,7 +173,8 @@ order and in several files.
 %       it had tried N steps, at most D in a row, and computed for S seconds.
 %     - history(-History)
 %       The history, newest first: actions, sensing results e(Fluent, Value)
-%       or e(Action, Outcome), failed(Action) and interrupted(Action).
+%       or e(Action, Outcome), failed(Action) and interrupted(Action). A step
+%       of several agents is a sorted list of actions.
 %     - trace(:Closure)
 %       Called with action(A) before an action, exog(A), sensed(A, Value),
 %       step(Program) with the program that remains, and replanned(Program).
@@ -187,6 +204,12 @@ order and in several files.
 %   @error existence_error(golog_precondition, Name/Arity) if there is no
 %          poss/2 for an action
 %   @error existence_error(golog_condition, Name/Arity)
+%   @error existence_error(golog_agent, Agent) if a clause is about an agent
+%          that agent/1 does not declare, or existence_error(golog_action,
+%          Name/Arity) if together/2, excludes/2, agent_of/2 or
+%          robot_action/3 is about no action
+%   @error domain_error(golog_derived, Name/Arity) if a derived fluent is also
+%          changed by an action, or depends on its own absence
 %   @error domain_error(golog_procedure, Call) if a procedure calls itself
 %          without a step in between
 %   @error permission_error(search, golog_domain, Module) if searchc is to
