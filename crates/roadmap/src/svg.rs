@@ -15,9 +15,8 @@ pub fn svg(map: &Map, found: &Solution, keep: f64) -> String {
     let mut svg = Svg::new(&frame, " stroke-linejoin=\"round\" stroke-linecap=\"round\"");
     svg.fill(&frame, "#fff");
     // First what is kept free, so that no obstacle is covered by it.
-    let kept = format!("fill=\"#eee\" stroke=\"#eee\" stroke-width=\"{:.2}\"", 2.0 * keep);
-    draw_obstacles(&mut svg, map, &kept);
-    draw_obstacles(&mut svg, map, "class=\"obstacle\" fill=\"#987\"");
+    draw_obstacles(&mut svg, map, "fill=\"#eee\"", keep);
+    draw_obstacles(&mut svg, map, "class=\"obstacle\" fill=\"#987\"", 0.0);
     if let Some(bounds) = &map.bounds {
         svg.bounds(bounds);
     }
@@ -32,15 +31,19 @@ pub fn svg(map: &Map, found: &Solution, keep: f64) -> String {
     svg.into_text()
 }
 
-fn draw_obstacles(svg: &mut Svg, map: &Map, style: &str) {
+/// The obstacles, and all that is nearer to one than a distance. (A stroke that is wider than a
+/// circle would leave a ring within it.)
+fn draw_obstacles(svg: &mut Svg, map: &Map, style: &str, keep: f64) {
     for obstacle in map.obstacles() {
         match &obstacle.0 {
             Shape::Polygon(corners) => {
-                let corners = points(corners);
-                svg.add(format_args!("<polygon points=\"{corners}\" {style}/>"));
+                let (corners, width) = (points(corners), 2.0 * keep);
+                svg.add(format_args!(
+                    "<polygon points=\"{corners}\" {style} stroke=\"#eee\" stroke-width=\"{width:.2}\"/>"
+                ));
             }
             Shape::Circle { center, radius } => {
-                svg.circle("", *center, &format!("{radius:.2}"), style);
+                svg.circle("", *center, &format!("{:.2}", radius + keep), style);
             }
         }
     }

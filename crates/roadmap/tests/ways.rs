@@ -358,6 +358,16 @@ fn a_roadmap_of_trees_has_its_way() {
 }
 
 #[test]
+fn a_picture_has_what_is_kept_free_around_a_circle() {
+    let circle = Obstacle::circle([50.0, 50.0], 4.0).unwrap();
+    let map = Map::new(vec![circle], None).unwrap();
+    let found = plan(&map, [0.0, 0.0], [100.0, 100.0], &Options::default()).unwrap();
+    let text = ev3_roadmap::svg(&map, &found, 12.0);
+    let (kept, obstacle) = (text.find("r=\"16.00\" fill=\"#eee\""), text.find("r=\"4.00\""));
+    assert!(kept.is_some() && kept < obstacle, "{text}");
+}
+
+#[test]
 fn why_there_is_no_way() {
     let ring = Obstacle::polygon(vec![
         [0.0, 0.0],

@@ -170,18 +170,15 @@ grid_action(Policy, State, Action, Cost) :-
     must_be_policy(Policy),
     Policy = policy(method: Method, map: Map, goal: Goal, costs: Costs),
     must_be_state(Map, State),
-    cost(Method, State, Costs, Cost0),
+    cost(Method, State, Costs, Cost),
     (   \+ State \= Goal
-    ->  Action0 = fin
+    ->  Action = fin
     ;   Method == value_iteration
-    ->  best_step(Map, State, Costs, Action0)
+    ->  best_step(Map, State, Costs, Action)
     ;   State = state(Cell, Direction),
-        downhill(Map, Cell, Goal, Direction, Cost0, Costs, Turns),
-        first_action(Turns, Action0)
-    ),
-    !,
-    Action = Action0,
-    Cost = Cost0.
+        downhill(Map, Cell, Goal, Direction, Cost, Costs, Turns),
+        first_action(Turns, Action)
+    ).
 
 must_be_policy(Policy) :-
     must_be(nonvar, Policy),
@@ -220,7 +217,6 @@ downhill(Map, Cell, Goal, Direction, Cost, Costs, Turns) :-
                 ( grid_direction(Map, Way),
                   grid_ahead(Cell, Way, Next),
                   get_assoc(Next, Costs, Left),
-                  Left < Cost,
                   before(Map, state(Next, Way), state(Cell, Way), More),
                   Cost =:= Left + More,
                   turns(Map, Direction, Way, Right),
