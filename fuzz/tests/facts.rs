@@ -72,9 +72,9 @@ impl Any {
                 let some = |at: usize| (choice >> at & 1 == 1).then(|| number(at));
                 Value::Traits(Traits {
                     mass: some(0),
-                    friction: some(1),
+                    friction: some(1).map(|number| number / 100.0),
                     height: some(2),
-                    bounces: some(3),
+                    bounces: some(3).map(|number| number / 200.0),
                     rolls: choice >> 4 & 1 == 1,
                     ..Traits::default()
                 })

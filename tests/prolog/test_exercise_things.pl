@@ -1,6 +1,7 @@
 % What scores and reports know of things that robots push: where they went, which of them a
 % gripper carried, and what a robot ran into.
 
+:- use_module('../support/child', [starts_itself/0]).
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev/exercise)).
 :- use_module(library(ev3dev/gripper)).
@@ -8,8 +9,7 @@
 :- use_module(library(ev3dev/private/marking/film), [film/3]).
 :- use_module(library(ev3dev/private/marking/record)).
 :- use_module(library(ev3dev/private/marking/why), [collision_reason/1]).
-
-:- dynamic user:file_search_path/2.
+:- use_module(library(filesex), [delete_directory_and_contents/1]).
 
 %   Goal has been recorded in World, whose robot is `carrier`.
 recorded(World, Goal) :-
@@ -59,16 +59,21 @@ test(a_world_without_things,
       fail]) :-
     recorded([box(0, 60, 5, 5)], go_cm(30, 10)),
     call(Goal).
-test(where_it_lies, Here == [true, true, false, false, true, false]) :-
+test(where_it_lies, [ forall(member(Area-Is, [ circle(0, 55, 6)-true, circle(3+4, 60, 7.0)-true,
+                                               circle(0, 55, 4.9)-false, circle(0, 65, 4.9)-false,
+                                               circle(8, 60, 7.9)-false,
+                                               [10-50, 20-50, 20-70]-false,
+                                               [-10-50, 30-50, [30, 90], 10-80, -10-90]-true,
+                                               [-10-50, 30-50, 30-90, 0-55, -10-90]-false,
+                                               %  a corner at its height
+                                               [-10-60, 0-70, 10-60, 0-50]-true,
+                                               [0-50, 10-60, 0-70, -10-60]-true,
+                                               [5-60, 15-70, 15-50]-false,
+                                               [15-50, 15-70, 5-60]-false ])),
+                      Is0 == Is ]) :-
     cube(60, Cube),
     recorded([Cube], wait(0.5)),
-    findall(Is,
-            ( member(Area, [ circle(0, 55, 6), circle(3+4, 60, 7.0), circle(0, 55, 4.9),
-                             [10-50, 20-50, 20-70],
-                             [-10-50, 30-50, [30, 90], 10-80, -10-90],
-                             [-10-50, 30-50, 30-90, 0-55, -10-90] ]),
-              ( thing_in(cube, Area) -> Is = true ; Is = false ) ),
-            Here).
+    ( thing_in(cube, Area) -> Is0 = true ; Is0 = false ).
 test(what_is_held_does_not_lie, Lies == [false, true]) :-
     findall(Is,
             ( member(Last, [grip, (grip, release)]),
@@ -90,6 +95,7 @@ test(wrong_area, [forall(member(Area-Error, [ a-domain_error(area, a),
 test(it_ran_into_a_thing, true(( sub_atom(Text, _, _, 0, 'it ran into cargo.') ;
                                  sub_atom(Text, _, _, _, 'it ran into cargo. ') ))) :-
     recorded([ bounds(-100, -100, 100, 100), box(20, 60, 10, 10), box(60, 60, 4, 4, 0, [name(post)]),
+               box(-60, 60, 6, 6, 0, [mass(0.05), name(other)]),
                box(0, 40, 6, 6, 0, [mass(0.05), name(cargo)]) ],
              go_cm(30, 50)),
     once(collision_reason(Text)).
@@ -153,5 +159,39 @@ test(a_page_moves_things, true) :-
            sub_string(Rest, Before, _, _, "]\n"),
            sub_string(Rest, 0, Before, _, Numbers) )),
     assertion(sub_string(Numbers, 0, _, _, "[[0,0,400,0],[")),
+    findall(Way,
+            ( sub_string(Page, _, _, Before1, "<polyline points=\""),
+              sub_string(Page, _, Before1, 0, Rest1),
+              once(sub_string(Rest1, Length, _, _, "\"")),
+              sub_string(Rest1, 0, Length, _, Way),
+              once(( sub_string(Rest1, Line, _, _, "\n"),
+                     sub_string(Rest1, 0, Line, _, Drawing) )),
+              sub_string(Drawing, _, _, _, "dasharray") ),
+            Ways1),
+    assertion(( Ways1 = [Way1], sub_string(Way1, 0, _, _, "0.0,40.0 0.0,") )),
     assertion(sub_string(Numbers, _, _, 0, ",[[0,400,0,0],],")).
+
+%   In processes, whose results are read as text.
+test(a_program_is_marked, [condition(starts_itself), Points-Ways == 10-1]) :-
+    tmp_file(things, Folder),
+    make_directory(Folder),
+    atom_concat(Folder, '/exercise.pl', Exercise),
+    atom_concat(Folder, '/mine.pl', Mine),
+    atom_concat(Folder, '/pages/mine.html', Html),
+    call_cleanup(
+        ( text_in(":- use_module(library(ev3dev/exercise)).
+                   exercise(x, [seeds(1), seconds(5)]).
+                   world(_, [box(0, 30, 6, 6, 0, [mass(0.05), name('it''s \\'')])]).
+                   score(10, 'is pushed') :- pushed(_, Cm), Cm > 5.", Exercise),
+          text_in(":- use_module(library(ev3dev)).
+                   start :- set_robot(5.6, 10.6, outB, outC), go_cm(30, 30).", Mine),
+          exercise_mark(Exercise, [Mine], [enclosed(false), out(Folder)],
+                        [mark(mine, Points, _, _, _, '')]),
+          read_file_to_string(Html, Page, []) ),
+        delete_directory_and_contents(Folder)),
+    findall(x, sub_string(Page, _, _, _, "const ways = [[[0,0,300,0],["), Found),
+    length(Found, Ways).
+
+text_in(Text, File) :-
+    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)).
 :- end_tests(exercise_things).

@@ -125,6 +125,9 @@ test(no_things_change_nothing, One-Two == Again-Again2) :-
     random_grid(9, [things(0-0)], Again2).
 test(a_grid_with_too_many_things, error(resource_error(grid))) :-
     random_grid(1, [size(3-3), boxes(0), things(9)], _).
+%   The thing in the corner would be behind the two others.
+test(a_thing_that_cannot_be_reached, error(resource_error(grid))) :-
+    random_grid(1, [size(2-2), boxes(0), things(3)], _).
 test(a_room_with_too_many_things, error(resource_error(room))) :-
     random_room(1, [size(120-120), boxes(0), pillars(0), things(20)], _).
 

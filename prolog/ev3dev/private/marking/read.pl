@@ -117,18 +117,17 @@ exercise_setting(exercise(_, _, Options, _), Setting, Default) :-
 %
 %   Seeds are all of them for `all`, those that students may see for `open`.
 
-exercise_seeds(Exercise, all, Seeds) :-
-    exercise_setting(Exercise, seeds(Seeds0), 1-10),
-    seed_list(Seeds0, Seeds).
-exercise_seeds(Exercise, open, Seeds) :-
+exercise_seeds(Exercise, Which, Seeds) :-
+    exercise_setting(Exercise, seeds(Given), 1-10),
+    seed_list(Given, All),
     exercise_setting(Exercise, open(Open), first),
-    (   Open == first
-    ->  exercise_seeds(Exercise, all, All),
-        (   append([A, B, C], _, All)
-        ->  Seeds = [A, B, C]
-        ;   Seeds = All
-        )
-    ;   seed_list(Open, Seeds)
+    (   Which == all
+    ->  Seeds = All
+    ;   Open \== first
+    ->  seed_list(Open, Seeds)
+    ;   append([A, B, C], _, All)
+    ->  Seeds = [A, B, C]
+    ;   Seeds = All
     ).
 
 %!  seed_list(+Seeds, -List) is semidet.
