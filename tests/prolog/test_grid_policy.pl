@@ -153,6 +153,9 @@ test(the_goal_may_have_a_direction,
        true(End == state([3, 3], D)) ]) :-
     grid_policy([map(Map), goal(state([3, 3], D)), method(Method)], Policy),
     last_state(Policy, Map, state([1, 2], D0), End).
+test(the_goal_may_have_any_direction, true(Cost == 0)) :-
+    grid_policy([goal(state([3, 3], _))], Policy),
+    grid_action(Policy, state([3, 3], [0, -1]), fin, Cost).
 test(of_a_wall_of_obstacles_nothing_is_known_beyond, fail) :-
     grid_policy([rows(["..#.", "..#."]), goal([0, 0])], Policy),
     grid_action(Policy, state([3, 0], [0, 1]), _, _).
