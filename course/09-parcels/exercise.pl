@@ -35,11 +35,11 @@ station(Color, [Left-10, Right-10, Right-40, Left-40]) :-
     Left is X-15,
     Right is X+15.
 
-score(partial(6), 'of the four parcels that lie at their stations', Share) :-
+score(partial(6), 'brings parcels to the stations of their colors', Share) :-
     brought(Parcels),
     length(Parcels, Count),
     Share is Count/4.
-score(partial(2), 'of them that were carried there, and not pushed', Share) :-
+score(partial(2), 'carries these, and does not push them', Share) :-
     brought(Parcels),
     findall(Parcel, ( member(Parcel, Parcels), was_carried(Parcel) ), Carried),
     length(Carried, Count),
