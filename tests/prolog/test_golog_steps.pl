@@ -167,6 +167,17 @@ test(a_derived_fluent_and_rules_without_agents_count_for_single_actions, H == [r
                   always(at >= 0) ], M,
                 ( once(do(M:achieve(away), H)),
                   \+ do(M:left, _) )).
+test(a_derived_fluent_asks_for_the_values_of_others, Actions == [[step(a)], [step(a)]]) :-
+    with_domain([ agent(a), agent(b), prim_action(step(a)), prim_action(step(b)),
+                  prim_fluent(at(a)), prim_fluent(at(b)), initially(at(a), 1),
+                  initially(at(b), 3), poss(step(R), at(R) < 4),
+                  causes_val(step(R), at(R), N, N is at(R)+1),
+                  (derived(top(N), neg(low(N))) :- between(1, 4, N)),
+                  (derived(low(N), at(_) > N) :- between(1, 4, N)),
+                  always(at(b) = 3) ], M,
+                ( holds(M:top(at(b)), []), \+ holds(M:top(at(a)), []),
+                  once(do(M:achieve(top(at(a)), [concurrent(true)]), H)) )),
+    reverse(H, Actions).
 test(costs_are_not_counted_at_the_same_time,
      error(domain_error(golog_option, [concurrent(true), cheapest(true)]))) :-
     with_domain([ agent(a), prim_action(nod(a)), poss(nod(a), true),

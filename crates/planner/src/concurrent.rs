@@ -9,6 +9,9 @@ use crate::compiled::{Compiled, Condition, Word, index};
 use crate::task::{Fault, Task};
 use std::collections::BTreeMap;
 
+/// The work for one state, after which the steps are too many.
+const MOST_WORK: u64 = 1 << 24;
+
 #[derive(Debug)]
 pub(crate) struct Concurrent {
     /// How many agents there are.
@@ -25,6 +28,8 @@ pub(crate) struct Concurrent {
     steps: Vec<Box<[u32]>>,
     numbers: BTreeMap<Box<[u32]>, u32>,
     bytes: usize,
+    /// A state had too many steps.
+    is_too_much: bool,
     after: Vec<Word>,
 }
 
@@ -80,6 +85,7 @@ impl Concurrent {
             steps: vec![],
             numbers: BTreeMap::new(),
             bytes: 0,
+            is_too_much: false,
             after: vec![0; compiled.words()],
         }))
     }
@@ -106,6 +112,7 @@ impl Concurrent {
             choice.chosen.clear();
         }
         self.choose(0, &mut choice, possible);
+        self.is_too_much |= choice.work > MOST_WORK;
         choice.work
     }
 
@@ -117,6 +124,9 @@ impl Concurrent {
             return;
         }
         for at in 0..choice.of_agents[agent].len() {
+            if choice.work > MOST_WORK {
+                return;
+            }
             let operator = choice.of_agents[agent][at];
             choice.work += 8 * choice.chosen.len() as u64 + 1;
             if choice.chosen.iter().all(|&other| self.agree(choice, operator, other)) {
@@ -172,9 +182,9 @@ impl Concurrent {
         }) && self.keeps_always(task, &operators, state)
     }
 
-    /// The bytes that the steps take.
+    /// The bytes that the steps take; more than there are if a state had too many.
     pub(crate) fn bytes(&self) -> usize {
-        self.bytes
+        if self.is_too_much { usize::MAX / 2 } else { self.bytes }
     }
 }
 

@@ -318,6 +318,21 @@ fn lamp(facts: usize, rules: Vec<Rule>) -> Task {
 }
 
 #[test]
+fn too_many_agents_end_the_search() {
+    let task = Task { facts: 2, goal: Formula::Fact(1), ..lamp(2, vec![]) };
+    let mut action = task.actions[0].clone();
+    action.effects[0].value = false;
+    let agents: Vec<_> = (0..90).map(|at| Some(at / 10)).collect();
+    let concurrent = Concurrent { agents, always: Formula::TRUE, ..Concurrent::default() };
+    let mut actions = vec![action; 90];
+    // The goal is in reach, so that the search begins.
+    actions[0].effects[0] = Effect { condition: Formula::Fact(0), fact: 1, value: true };
+    actions[1].effects[0].value = true;
+    let task = Task { actions, concurrent: Some(concurrent), ..task };
+    assert_eq!(solve(&task, true), Progress::OutOfMemory);
+}
+
+#[test]
 fn a_task_that_contradicts_itself_is_refused() {
     let fault = |task: &Task| Planner::new(task, &Limits::default()).err();
     assert_eq!(fault(&lamp(1, vec![])), None);

@@ -20,7 +20,7 @@
 :- use_module(situation, [was_done/2]).
 :- use_module(theory,
               [ derived_rule/4, domain_list/3, is_fluent/2, is_kind/3,
-                proc_body/3
+                names_fluent/2, proc_body/3
               ]).
 :- use_module(values,
               [ evaluated_arguments/4, fluent_value/4, known_or_declared/3,
@@ -89,8 +89,14 @@ holds_atom(P, S, Context) :-
         holds(Body, S, Context1)
     ;   context_module(Context, M),
         is_kind(derived, P, M)
-    ->  derived_atom(P, Stratum, M),
-        is_derived(P, Stratum, S, Context)
+    ->  (   compound(P),
+            arg(_, P, Argument),
+            names_fluent(Argument, M)
+        ->  evaluated_arguments(P, P1, S, Context)
+        ;   P1 = P
+        ),
+        derived_atom(P1, Stratum, M),
+        is_derived(P1, Stratum, S, Context)
     ;   context_module(Context, M),
         is_kind(fluent, P, M)
     ->  evaluated_arguments(P, F, S, Context),

@@ -201,8 +201,9 @@ residual(P, M, E) :-
     ;   P = all(Vs, Q)
     ->  residual(neg(some(Vs, neg(Q))), M, E)
     ;   is_kind(derived, P, M)
-    ->  must_be_ground(P),
-        E = P
+    ->  arguments_with_values(P, P, Q, E1, M),
+        must_be_ground(Q),
+        both(E1, Q, E)
     ;   is_kind(proc, P, M)
     ->  proc_body(P, Q, M),
         residual(Q, M, E)

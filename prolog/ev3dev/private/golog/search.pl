@@ -17,7 +17,7 @@
 :- use_module(effort, [counted/2, effort_id/2, how_far/2, polled/1]).
 :- use_module(visited_states, [state_key/4, states_forgotten/1, tried/5]).
 :- use_module(planning_task, [cost/4, task/7, task_plan/4]).
-:- use_module(steps, [agent_of/3]).
+:- use_module(steps, [agent_of/3, step_after/5]).
 :- use_module(theory,
               [ has_agents/1, has_clauses/2, has_step_rules/1, is_kind/3,
                 is_sensing_action/2
@@ -693,7 +693,8 @@ possible_step(Step, S0, S, X, M) :-
     polled(Effort),
     Step0 = [_|_],
     sort(Step0, Step),
-    step(together(Step), S0, [], S, X).
+    step_after(Step, S0, S, Why, X),
+    var(Why).
 
 one_of_each([], _, []).
 one_of_each([R|Rs], Pairs, Step) :-

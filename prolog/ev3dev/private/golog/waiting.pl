@@ -11,7 +11,6 @@
             robot_stopped/2             % +Robot, +Cause
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(thread), [concurrent/3]).
 :- use_module(queue, [queue_wait/3]).
 
 /** <module> The waits of library(ev3dev/golog)
@@ -75,7 +74,8 @@ run_on_bricks(Parts, For, Watch, Outcome) :-
     length(Parts, Count),
     findall(ev3dev_golog_waiting:run_part(Part, For), member(Part, Parts),
             Goals),
-    catch(run_watched(concurrent(Count, Goals, []), Watch, Outcome),
+    catch(run_watched(ev3dev_bricks:concurrent(Count, Goals, []), Watch,
+                      Outcome),
           golog_out_of_time, Outcome = interrupted).
 
 :- public run_part/2.
