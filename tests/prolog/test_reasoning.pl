@@ -140,14 +140,14 @@ test(two_threads_do_not_record_at_once,
     setup_call_cleanup(
         thread_create(reasoning(user:( thread_send_message(Me, begun),
                                        thread_get_message(end) )),
-                      Thread),
+                      Thread, []),
         ( thread_get_message(begun),
           reasoning(one) ),
         ( thread_send_message(Thread, end),
           thread_join(Thread, Status) )),
     Status == true.
 test(the_next_thread_may_record_when_one_has_ended, true(Status == true)) :-
-    thread_create(reasoning(one), Thread),
+    thread_create(reasoning(one), Thread, []),
     thread_join(Thread, Status),
     reasoning(one).
 test(a_large_term_keeps_its_beginning, true(Bytes < 3000000)) :-
