@@ -22,6 +22,11 @@ forget :-
 note(Event) :-
     assertz(noted(Event)).
 
+note_line(_) :-
+    once(ev3dev_causes:active_clause(Clause)),
+    clause_property(Clause, line_count(Line)),
+    note(Line).
+
 noted_events(Events) :-
     findall(Event, retract(noted(Event)), Events).
 
@@ -270,9 +275,10 @@ test(the_period_is_the_time_between_two_looks, true(Count == 11)) :-
             run_layers([timeout(1.05), period(0.1)])),
     aggregate_all(count, row(0, x), Count).
 test(trace_is_called_at_each_change,
-     true(Events == [ assign(a, 1), set(outB, 20), assign(a, 2), set(outB, 40) ])) :-
+     true(Events == [ assign(a, 1), assign(b, x), set(outB, 20), assign(a, 2), set(outB, 40) ])) :-
     forget,
     layered(":- use_module(library(ev3dev/layers)).
+             assign(b, x) <- val(a, _).
              assign(a, 1) <- sense(time, T), T < 0.2.
              assign(a, 2) <- sense(time, T), T >= 0.2.
              set(outB, S) <- val(a, A), S is 20*A.",
@@ -291,9 +297,27 @@ test(a_fluent_with_arguments_is_assigned_before_anybody_asks,
           see <- sense(time, T), T > 0.08, was(seen(X), yes, 0.0), user:assertz(row(0, X)), X = b.",
          [until(see)], _),
     findall(X, row(_, X), Rows).
-test(nothing_of_a_time_is_left, true(Left == [])) :-
-    ends("assign(a, 1) <- sense(time, _).", _),
-    findall(F, ( ev3dev_layers:now_assigned(_, F, _) ; ev3dev_layers:now_sensed(_, F, _) ), Left).
+test(nothing_of_a_time_is_left_and_of_one_run_the_fluents, true(Left == [a, outB])) :-
+    ends("assign(a, 1) <- sense(time, _). set(outB, 10) <- true.", _),
+    ends("assign(a, 1) <- sense(time, _). set(outB, 10) <- true.", _),
+    findall(F,
+            (   ev3dev_layers:now_assigned(_, F, _)
+            ;   ev3dev_layers:now_sensed(_, F, _)
+            ;   ev3dev_layers:fluent(_, F, _, _, _)
+            ;   ev3dev_layers:motor(_, F, _, _)
+            ),
+            Left).
+test(one_rule_may_set_another_speed_each_time, true(Commands == [outB-105, outB-210, outB-315])) :-
+    layered(":- use_module(library(ev3dev/layers)).
+             set(outB, S) <- sense(time, T), S is 10 + 10*round(T/0.05).",
+            ( run_layers([timeout(0.12)]), commands(Commands) )).
+test(the_view_sees_the_rule_that_sets_a_motor, true(Line == 3)) :-
+    forget,
+    layered(":- use_module(library(ev3dev/layers)).
+             set(outC, 5) <- fail.
+             set(outB, 10) <- true.",
+            run_layers([timeout(0.1), trace(user:note_line)])),
+    noted_events([Line]).
 test(other_modules_may_have_facts_of_these_names, true(Printed == [])) :-
     warnings(setup_call_cleanup(
                  open_string("assign(a, 1). set(b, 2). set(X, 3) :- X = 1.", Stream),
