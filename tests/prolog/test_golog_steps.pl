@@ -342,6 +342,11 @@ once_failed(A) :-
         A \== lift(a)
     ).
 
+test(an_interrupted_step_has_effects_too) :-
+    table(Clauses),
+    with_domain([ rel_fluent(lost), initially(lost, false),
+                  causes_true(interrupted([A, _]), lost, A == lift(a))|Clauses ], M,
+                once(holds(M:lost, [interrupted([lift(b), lift(a)])]))).
 test(a_failed_step_has_effects, H == [[lift(a), lift(b)], failed([lift(a), lift(b)])]) :-
     table(Clauses),
     with_domain([ rel_fluent(lost), initially(lost, false),
@@ -495,7 +500,7 @@ test(when_one_is_killed_the_other_one_stands_within_a_second,
       true(Reason-Moved == failed([carry(back), carry(front)])-true)]) :-
     retractall(user:bar_lies(_)),
     setup_call_cleanup(
-        assertz(user:message_hook(golog(part_failed(front, _, _)), _, _), Hook),
+        asserta(user:message_hook(golog(part_failed(front, _, _)), _, _), Hook),
         carried([on_failed(stop)], plunit_golog_steps_robots:killed(How), Reason, History),
         erase(Hook)),
     History = [failed([carry(back), carry(front)])|_],
@@ -552,7 +557,7 @@ test(an_agent_without_a_brick_fails, Reason-Told == failed([nod(back), nod(ghost
     setup_call_cleanup(
         ( sim_start(bar, [clock(virtual), robots([back-carrier, front-carrier])]),
           retractall(user:bar_lies(_)),
-          assertz((user:message_hook(golog(part_failed(R, _, _)), _, _) :-
+          asserta((user:message_hook(golog(part_failed(R, _, _)), _, _) :-
                        assertz(user:bar_lies(R))), Hook) ),
         with_domain([ agent(back), agent(ghost), prim_action(nod(back)),
                       prim_action(nod(ghost)), poss(nod(_), true),

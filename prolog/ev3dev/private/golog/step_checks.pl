@@ -2,8 +2,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(steps, [agent_of/3]).
 :- use_module(theory,
-              [ clause_place/2, has_agents/1, has_clauses/2,
-                has_possible_values/1, is_kind/3, place_text/2
+              [ clause_place/2, has_agents/1, has_possible_values/1,
+                is_kind/3, place_text/2
               ]).
 :- use_module('../errors/errors', [throw_error/3]).
 
@@ -17,7 +17,6 @@ derived/2 or robot_action/3 is an error before the first step, with its place.
 
 ev3dev_golog_theory:checked(M) :-
     declaration(Head),
-    has_clauses(M, Head),
     clause(M:Head, Body, Ref),
     wrong(Head, Body, M, Formal, What),
     clause_place(Ref, Place),
@@ -37,10 +36,7 @@ declaration(robot_action(_, _, _)).
 %   wrong(+Head, +Body, +Module, -Formal, -Text) is nondet.
 
 wrong(agent(R), Body, M, Formal, Text) :-
-    (   Body == true
-    ->  true
-    ;   call(M:Body)
-    ),
+    call(M:Body),
     \+ atom(R),
     Text = 'an agent is an atom, the name of its brick',
     ( var(R) -> Formal = instantiation_error ; Formal = type_error(atom, R) ).
@@ -149,8 +145,6 @@ compound_or_fluent(Q, M) :-
 has_value_of_its_own(Fluent, Head, M) :-
     member(Head, [ causes_val(_, F, _, _), causes_true(_, F, _),
                    causes_false(_, F, _), initially(F, _), senses(_, F) ]),
-    has_clauses(M, Head),
     clause(M:Head, _),
     nonvar(F),
-    F = Fluent,
-    !.
+    F = Fluent.

@@ -13,10 +13,7 @@
 :- use_module(context, [context_module/2]).
 :- use_module(effects, [effect/4]).
 :- use_module(progression, [done/4]).
-:- use_module(theory,
-              [ clause_place/2, has_agents/1, has_clauses/2,
-                is_sensing_action/2
-              ]).
+:- use_module(theory, [clause_place/2, is_sensing_action/2]).
 
 /** <module> Steps of several actions at the same time
 
@@ -36,12 +33,10 @@ in the same step.
 %   first argument, if that is an agent.
 
 agent_of(A, Agent, M) :-
-    (   has_clauses(M, agent_of(_, _)),
-        M:agent_of(A, Agent0)
+    (   M:agent_of(A, Agent0)
     ->  Agent = Agent0
     ;   compound(A),
         arg(1, A, Agent0),
-        has_agents(M),
         \+ \+ M:agent(Agent0),
         Agent = Agent0
     ).
@@ -51,13 +46,11 @@ agent_of(A, Agent, M) :-
 %   A step with Action has another action that unifies with Other.
 
 needed(A, Other, M) :-
-    has_clauses(M, together(_, _)),
     M:together(A, Other).
 
 %!  excluded(+Action1, +Action2, +Module) is semidet.
 
 excluded(A, B, M) :-
-    has_clauses(M, excludes(_, _)),
     (   M:excludes(A, B)
     ;   M:excludes(B, A)
     ),
@@ -69,7 +62,6 @@ excluded(A, B, M) :-
 %   `none`.
 
 always(Condition, Place, M) :-
-    has_clauses(M, always(_)),
     clause(M:always(Condition), Body, Ref),
     call(M:Body),
     clause_place(Ref, Place).
@@ -157,8 +149,7 @@ two_values([A, B|As], S, X, one_value(F, One, Other)) :-
     member(F-V1, Effects1),
     member(F0-V2, Effects2),
     F0 == F,
-    V1 \== V2,
-    !.
+    V1 \== V2.
 
 %!  sorted_steps(+History0, -History) is det.
 %
