@@ -56,7 +56,7 @@ function read() {
   return {};
 }
 
-const present = () => ({ name: name(), text: editor.text, world: machine.world, task });
+const present = () => ({ name: name(), text: editor.text, world: machine.lines, task });
 
 function keep() {
   for (const store of ['sessionStorage', 'localStorage']) {
@@ -93,7 +93,7 @@ function show({ name: title, text: words, world, task: exercise = '' }, about = 
 /** Begins a world and a robot by their lines. */
 function begin(lines) {
   if (machine.open) for (const line of lines) machine.send(line);
-  else machine.world = lines;
+  else machine.lines = lines;
 }
 
 // ----------------------------------------------------------------- Prolog
@@ -164,9 +164,15 @@ function name() {
 
 function run() {
   if (program?.state === 'running') return stop();
+  toNow();
   if (machine.send(`run ${name()} ${editor.text}`)) showPart('robot');
   else notice('Prolog is not ready yet.', { seconds: 3 });
   return true;
+}
+
+/** What begins is to be seen. */
+function toNow() {
+  $('robot').contentDocument?.dispatchEvent(new CustomEvent('ev3dev-time', { detail: { t: null } }));
 }
 
 function stop() {
@@ -275,6 +281,7 @@ function showTask() {
 
 /** A program that still runs is ended by it. */
 function check() {
+  toNow();
   if (machine.send(`check ${name()} ${task} ${editor.text}`)) console_.say('mark', 'Check: the program runs in the open worlds of the exercise, as fast as it can.');
   else notice('Prolog is not ready yet.', { seconds: 3 });
 }
@@ -309,7 +316,7 @@ async function words() {
 
 /** A link has a program in it, or names an exercise: #task=03. */
 async function opened() {
-  const [, exercise] = /^#task=([\w-]+)$/.exec(location.hash) ?? [];
+  const exercise = /^#task=([\w-]+)$/.exec(location.hash)?.[1].replace(/^\d$/, '0$&');
   const shared = location.hash.length > 1 && !exercise ? await fromFragment(location.hash.slice(1)).catch(() => null) : null;
   const isLink = location.hash.length > 1;
   if (isLink) history.replaceState(null, '', location.pathname + location.search);

@@ -13,6 +13,7 @@ const HOME = '/home/web_user/';
 
 /** Words of the lines by which hands change a world, and of those that begin another one. */
 const HANDS = ['add', 'move', 'remove', 'unplug', 'plug', 'hold', 'free'];
+const isHand = (line) => HANDS.includes(line.split(' ', 1)[0]);
 const isRobot = (line) => line.startsWith('choose robot ');
 const WORLDS = ['begin', 'choose'];
 const nameOf = (line) => line?.split(' ')[line.startsWith('begin') ? 1 : 3];
@@ -82,14 +83,28 @@ export class Machine {
     this.have = '';
     /** Frames that were asked for, and that came; those up to `before` do not know what was begun last. */
     [this.wanted, this.frames, this.before] = [0, 0, 0];
-    const { world, hands, name, pose } = this;
+    const { lines, isOwn, name, pose } = this;
     [this.world, this.hands, this.begun] = [[], [], []];
-    // A program may have begun another world than the page.
-    const own = nameOf(world.findLast((line) => !isRobot(line))) ?? 'room';
-    for (const line of [...world, ...name && name !== own ? [`choose world pack ${name}`] : hands]) this.send(line);
+    for (const line of lines) this.send(line);
+    if (!isOwn) this.send(`choose world pack ${name}`);
     if (pose) this.send(`place ${pose.join(' ')}`);
     this.on.begins();
     this.view?.begins();
+  }
+
+  /** A program may have begun another world than the page. */
+  get isOwn() {
+    return !this.name || this.name === (nameOf(this.world.findLast((line) => !isRobot(line))) ?? 'room');
+  }
+
+  /** What makes the world of the page as it is: lines that begin it, and what hands did to it. */
+  get lines() {
+    return [...this.world, ...this.isOwn ? this.hands : []];
+  }
+
+  set lines(lines) {
+    this.world = lines.filter((line) => !isHand(line));
+    this.hands = lines.filter(isHand);
   }
 
   /** The live view is there. */
@@ -109,7 +124,7 @@ export class Machine {
 
   send(line) {
     if (!this.open) return false;
-    if ([...WORLDS, ...HANDS].includes(line.split(' ', 1)[0])) this.begun.push(line);
+    if (isHand(line) || WORLDS.includes(line.split(' ', 1)[0])) this.begun.push(line);
     this.worker.postMessage(line);
     if (/^(run|load|check|goal|more) /.test(line)) {
       this.before = this.wanted;
@@ -129,7 +144,7 @@ export class Machine {
       this.world = [...this.world.filter((other) => isRobot(other) !== isRobot(line)), line];
       this.hands = [];
     }
-    if (WORLDS.includes(what)) this.on.worldChanged();
+    if (line || what === 'reset') this.on.worldChanged();
   }
 
   stop() {

@@ -59,7 +59,8 @@ the page is sent a frame. STOP is an abort at such a place.
     driving/1,                          % Round
     deferred/1,                         % Line: what is done when the program has ended
     found/3,                            % Line, Kind, Text: of the program that is loaded
-    imported_first/1,                   % Head: what was there without a program
+    first_library/1,                    % File: what is there without a program
+    imported_first/1,                   % Head: what it exports
     loading/0,
     program_file/1,
     raised/1,                           % Line: of the last error
@@ -100,6 +101,14 @@ session :-
 begin :-
     assertz(began),
     forall(imported(Head), assertz(imported_first(Head))),
+    findall(File,
+            ( imported_first(Head),
+              predicate_property(user:Head, imported_from(Module)),
+              module_property(Module, file(File)) ),
+            Files0),
+    sort(Files0, Files),
+    forall(member(File, Files), assertz(first_library(File))),
+    import_first,
     page_settings(60, true),
     worlds_settings(localhost),
     watch_messages,
@@ -179,7 +188,7 @@ hand(Line) :-
 %   is.
 program(Word, Name, Text) :-
     forget_program,
-    forall(ev3dev_brick:forget(0), true),
+    forgotten,
     program_written(Name, Text, File),
     assertz(program_file(File)),
     retractall(found(_, _, _)),
@@ -205,6 +214,15 @@ program(Word, Name, Text) :-
                        type a query.")
     ).
 
+%   But what began the world is still known: `Back to the start` begins it again.
+forgotten :-
+    findall(Fact,
+            ( member(Fact, [noted(0, _, _), name(0, _)]),
+              ev3dev_world_name:Fact ),
+            Kept),
+    forall(ev3dev_brick:forget(0), true),
+    forall(member(Fact, Kept), assertz(ev3dev_world_name:Fact)).
+
 forget_program :-
     retractall(program_file(_)),
     forall(( program(Former), \+ sub_atom(Former, 0, _, _, '/pack/') ),
@@ -222,7 +240,17 @@ forget_program :-
     forall(( ev3dev_golog:vocabulary(Name/Arity),
              functor(Head, Name, Arity),
              predicate_property(user:Head, dynamic) ),
-           retractall(user:Head)).
+           retractall(user:Head)),
+    import_first.
+
+%   A saved state has forgotten that a program may define again what a library
+%   exports.
+import_first :-
+    forall(( imported_first(Head), imported(Head) ),
+           ( functor(Head, Name, Arity),
+             abolish(user:Name/Arity) )),
+    forall(first_library(File),
+           user:use_module(File)).
 
 imported(Head) :-
     predicate_property(user:Head, imported_from(Module)),
@@ -729,6 +757,15 @@ heard(Line) :-
     ->  as_hand(stop_program),
         assertz(deferred(Line))
     ;   hand(Line)
+    ).
+
+%   On a PC a simulation in real time goes on while a program sleeps.
+:- redefine_system_predicate(user:sleep(_)).
+
+user:sleep(Seconds) :-
+    (   ev3dev_playground:checking
+    ->  system:sleep(Seconds)
+    ;   ev3dev_time:wait(Seconds)
     ).
 
 % ---------------- OUTPUT, MESSAGES

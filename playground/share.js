@@ -12,6 +12,6 @@ export async function fromFragment(fragment) {
   const bytes = Uint8Array.from(atob(fragment.replace(/-/g, '+').replace(/_/g, '/')), (letter) => letter.charCodeAt(0));
   const { name, text, world, task } = JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream('deflate-raw'))));
   if (typeof name !== 'string' || typeof text !== 'string') throw new Error('no program');
-  const lines = Array.isArray(world) ? world.filter((line) => /^(choose|begin) /.test(line)) : [];
+  const lines = Array.isArray(world) ? world.filter((line) => /^(choose|begin|add|move|remove) /.test(line)) : [];
   return { name, text, world: lines, task: typeof task === 'string' ? task : '' };
 }

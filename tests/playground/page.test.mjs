@@ -542,6 +542,70 @@ describe('the course', () => {
     assert.equal(await page.$eval('#task', (button) => button.hidden), false);
     await page.end();
   });
+
+  test('has the world of its exercise again after a run', async () => {
+    const page = await visit({ fragment: '#task=4' });
+    await isOpen(page, '#tasked');
+    await page.click('#tasked .main');
+    const world = () => page.evaluate(() => JSON.stringify(document.getElementById('robot').contentWindow.ev3view.state().world));
+    await until(async () => /"line"/.test(await world()), 'the line');
+    const before = await world();
+    await run(page, `${HEAD}start :- ${ROBOT}, go_cm(20, 10).\n`);
+    await until(async () => (await robot(page)).time > 0.5, 'a program that moves');
+    await idle(page);
+    await page.evaluate(() => document.getElementById('robot').contentDocument.getElementById('reset').click());
+    await until(async () => (await robot(page)).time === 0, 'the start');
+    assert.equal(await world(), before);
+    await page.end();
+  });
+});
+
+describe('a program of a pupil', () => {
+  test('has predicates of its own with the names of ours, and others have ours again', async () => {
+    const page = await visit();
+    await run(page, `${HEAD}start :- stop(5), writeln(mine).\nstop :- writeln(here).\nstop(_) :- stop.\n`);
+    await said(page, /^here\nmine/);
+    await run(page, `${HEAD}start :- ${ROBOT}, go(20), wait(0.1), stop, writeln(ours).\n`);
+    await said(page, /^ours/);
+    await page.end();
+  });
+
+  test('sleeps while the simulation goes on, as on a PC', async () => {
+    const page = await visit();
+    await run(page, `${HEAD}start :- ${ROBOT}, go(30), sleep(1), stop.\n`);
+    await until(async () => (await robot(page)).time > 0.99, 'a second');
+    await page.end();
+  });
+
+  test('is seen at once, though the slider was in the past', async () => {
+    const page = await visit();
+    await run(page, `${HEAD}start :- ${ROBOT}, go_cm(30, 10).\n`);
+    await until(async () => (await robot(page)).time > 0.9, 'a run');
+    await idle(page);
+    const past = () => page.evaluate(() => Boolean(document.getElementById('robot').contentWindow.ev3view.state().past));
+    await page.evaluate(() => document.getElementById('robot').contentDocument.dispatchEvent(new CustomEvent('ev3dev-time', { detail: { t: 0.3 } })));
+    await until(past, 'the past');
+    await page.click('#run');
+    await until(async () => !await past(), 'now');
+    await page.end();
+  });
+
+  test('has in its link what was drawn by hand', async () => {
+    const page = await visit();
+    const items = (from) => from.evaluate(() => document.getElementById('robot').contentWindow.ev3view.state().world.items.length);
+    const before = await items(page);
+    await page.evaluate(() => window.ev3dev.machine.send('add box 60 60 5 5'));
+    await until(async () => await items(page) === before + 1, 'the box');
+    await page.click('#share');
+    const link = await until(() => page.$eval('#link', (field) => field.value), 'a link');
+    await page.end();
+    const other = await visit({ fragment: link.slice(url.length) });
+    await until(async () => await items(other) === before + 1, 'the box of the link');
+    await other.reload();
+    await ready(other);
+    await until(async () => await items(other) === before + 1, 'the box after a reload');
+    await other.end();
+  });
 });
 
 describe('nothing is lost', () => {
