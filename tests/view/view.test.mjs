@@ -74,6 +74,13 @@ group('a match of several robots', ['use_module(library(ev3dev/bricks))'], '', (
     await shows(it.page, (s) => near(s.robot.true[1], 120, 1) && s.others.every((other) => near(other.y, 120, 1)), 'the end of all');
     await it.session.ask(`forall(member(Name, [${SIX}]), brick_close(Name))`);
   });
+
+  test('is seen, too, beside a simulation that began before it', async () => {
+    await it.session.ask('sim_start(room, [clock(virtual)])');
+    await shows(it.page, (s) => s.world?.name === 'room', 'the room');
+    await it.session.ask('sim_start([start(anna, 0, 0, 0), start(bob, 0, 60, 180)], [clock(virtual), robots([anna-default, bob-default])])');
+    await shows(it.page, (s) => s.bricks?.shown === 'anna' && s.others[0]?.name === 'bob', 'the robots of the match');
+  });
 });
 
 group('one of several robots', TWO, '', (it) => {
