@@ -1503,7 +1503,8 @@ group('panels', ROOM, '', (it) => {
     const page = await open(browser, it.url, { width: 390, height: 844, phone: true });
     await shows(page, (t) => t.ports.length === 8 && t.charts.length, 'what the cards have');
     const whole = await page.evaluate(() => document.body.scrollHeight);
-    for (const name of ['world', 'ports', 'brick']) await page.tap(`.${name}-card .fold`);
+    // Where a tap would go, something else may be by now on a busy machine.
+    for (const name of ['world', 'ports', 'brick']) await page.$eval(`.${name}-card .fold`, (button) => button.click());
     await until(async () => await page.evaluate(() => document.body.scrollHeight) < whole - 800, 'a shorter page');
     await page.evaluate(() => localStorage.removeItem('ev3dev-panels'));
     await free(page)();
@@ -1694,8 +1695,11 @@ group('a thing that a robot pushes', [PUSHED, 'use_module(library(ev3dev/gripper
     assert.equal(await drawn([-40, 58], [-30, 68]), undefined);
     assert.equal(await it.session.ask('sim_things(Things), length(Things, 2)'), '');
     for (const y of [89, 63]) {
-      await it.page.mouse.click(...await pixel(it.page, -35, y));
-      await shows(it.page, (s) => s.selected === 'box', 'a chosen box');
+      // The view may still move to have the new box in it.
+      await until(async () => {
+        await it.page.mouse.click(...await pixel(it.page, -35, y));
+        return (await state(it.page)).selected === 'box';
+      }, 'a chosen box');
       await it.page.keyboard.press('Delete');
     }
     await shows(it.page, (s) => s.world.items.length === 2, 'neither of them');
