@@ -18,7 +18,8 @@
                 speed_value/2, timeout_option/2 ]).
 :- use_module(private/errors/errors,
               [ error_within/3, instantiation_error/1, throw_error/3 ]).
-:- use_module(private/errors/error_texts, [nearly/3, shown/2]).
+:- use_module(private/errors/error_texts,
+              [clause_place/2, nearly/3, place_text/2, shown/2]).
 :- use_module(private/errors/frames, [goal_of_program/1]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/journal/causes, [acting_for/2]).
@@ -675,16 +676,7 @@ layer_and_place(Clause, Layer, Place) :-
     ->  true
     ;   Layer = none
     ),
-    (   clause_property(Clause, file(File)),
-        clause_property(Clause, line_count(Line))
-    ->  Place = File:Line
-    ;   Place = none
-    ).
-
-place_text(none, '').
-place_text(File:Line, Text) :-
-    file_base_name(File, Base),
-    format(atom(Text), ' (~w:~w)', [Base, Line]).
+    clause_place(Clause, Place).
 
 % ---------------- FLUENTS
 

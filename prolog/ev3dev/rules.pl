@@ -18,7 +18,8 @@
               [ domain_error/2, error_within/3, existence_error/2,
                 instantiation_error/1, throw_error/3, type_error/2
               ]).
-:- use_module(private/errors/error_texts, [nearly/3, shown/2]).
+:- use_module(private/errors/error_texts,
+              [clause_place/2, nearly/3, place_text/2, shown/2]).
 :- use_module(private/errors/frames, [goal_of_program/1]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/checks/arguments,
@@ -515,17 +516,10 @@ rule_place(Name, Behavior, Place) :-
     Behavior = behavior(rules: Rules),
     (   arg(_, Rules, Rule),
         Rule = rule(name: Name),
-        rule_clause(Rule, Clause),
-        clause_property(Clause, file(File)),
-        clause_property(Clause, line_count(Line))
-    ->  Place = File:Line
+        rule_clause(Rule, Clause)
+    ->  clause_place(Clause, Place)
     ;   Place = none
     ).
-
-place_text(none, '').
-place_text(File:Line, Text) :-
-    file_base_name(File, Base),
-    format(atom(Text), ' (~w:~w)', [Base, Line]).
 
 :- multifile prolog:message//1.
 

@@ -4,6 +4,8 @@
             nearly/3,                   % +Term, +Values, -Value
             no_value/3,                 % ?Variable, +Frame, -Text
             shown/2,                    % +Term, -Shown
+            clause_place/2,             % +Clause, -Place
+            place_text/2,               % +Place, -Text
             is_word/1,                  % +Atom
             nth/2                       % +Place, -Nth
           ]).
@@ -163,6 +165,24 @@ quoted([], []).
 quoted([Value|Values], [Atom|Atoms]) :-
     format(atom(Atom), '~w', [Value]),
     quoted(Values, Atoms).
+
+%!  clause_place(+Clause, -Place) is det.
+%!  place_text(+Place, -Text) is det.
+%
+%   Place is the File:Line of a Clause, or `none`. Text names it after what is
+%   there, without the folder, or is empty.
+
+clause_place(Clause, Place) :-
+    (   clause_property(Clause, file(File)),
+        clause_property(Clause, line_count(Line))
+    ->  Place = File:Line
+    ;   Place = none
+    ).
+
+place_text(none, '').
+place_text(File:Line, Text) :-
+    file_base_name(File, Base),
+    format(atom(Text), ' (~w:~w)', [Base, Line]).
 
 %!  shown(+Term, -Shown) is det.
 %
