@@ -13,6 +13,8 @@ Of what stands in back quotes there
 
 A walk says how many files it names, and how many returns, (up).
 
+Links of all papers lead to a file and a heading that are there.
+
 What has a `<` is for the reader to fill in. Lists that repeat what files say are compared
 with these files, `compared` below.
 """
@@ -242,6 +244,23 @@ def compared(files, papers):
         re.findall(r"^date-released: ([\d-]+)", papers["CITATION.cff"], flags=re.M)), {released[2]}
 
 
+def anchors(text):
+    """The headings of a paper, as links name them."""
+    text = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+    return {re.sub(r"[^\w\- ]", "", re.sub(r"\]\(.*?\)", "", heading)).lower().replace(" ", "-")
+            for heading in re.findall(r"^#+ +(.*)$", text, flags=re.M)}
+
+
+def broken(papers, paths):
+    """Links to a file or a heading that is not there, each with its paper."""
+    for paper in papers:
+        for link in re.findall(r"\]\((?!http)([^)\s]+)\)", papers[paper]):
+            path, _, anchor = link.partition("#")
+            path = os.path.normpath(os.path.join(os.path.dirname(paper), path)) if path else paper
+            if path not in paths or (anchor and anchor not in anchors(papers.get(path, ""))):
+                yield f"{paper}: {link} leads nowhere"
+
+
 def differences(lists):
     """What one of two lists has and the other has not."""
     for says, of, names_there, things in lists:
@@ -269,6 +288,9 @@ def self_test():
     expected = ["a: b: 3 is missing", "a: b: there is no 1", "c: d: 1 is missing", "e: f: nothing was found"]
     if found != expected:
         sys.exit(f"papers.py: found {found}, not {expected}")
+    found = list(broken({"docs/a.md": "# A `b`, c\n[x](#a-b-c) [x](../src/) [x](b.md) [x](#b)"}, {"src", "docs/a.md"}))
+    if found != ["docs/a.md: b.md leads nowhere", "docs/a.md: #b leads nowhere"]:
+        sys.exit(f"papers.py: found {found}")
     if walks("# W\n## a\n\n2 files, 1 return\n\n1. `src/a.rs` `b.pl`\n2. `a.rs` (up)\n## b\n1. `c.js`\n") != (
             {"a: 2 files, 1 return"}, {"a: 2 files, 1 return", "b: 1 files, 0 returns"}):
         sys.exit("papers.py: walks are miscounted")
@@ -292,6 +314,7 @@ def main():
     house = House(files)
     found = [f"{paper}:{line}: there is no {what}" for paper in PAPERS
              for line, what in wrong((ROOT / paper).read_text(), house, make, walks=paper.endswith("walks.md"))]
+    found += broken(papers, house.paths)
     return "\n".join([*found, *differences(compared(files, papers))]) or None
 
 

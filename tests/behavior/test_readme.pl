@@ -1,4 +1,4 @@
-% docs/predicates.md has all predicates, and files that the papers name are there.
+% docs/predicates.md has all predicates, and the examples that papers name are there.
 % What they show of the prompt and the shell is played by tests/sessions/play.py.
 
 :- use_module('../support/simulation').
@@ -36,9 +36,6 @@ test(each_example_of_rules_is_played, true(Without == [])) :-
             Without).
 test(each_example_it_names_is_there, [forall(named_example(File))]) :-
     exists_file(File).
-test(each_file_they_link_to_is_there, [forall(linked(File))]) :-
-    ( exists_file(File) ; exists_directory(File) ),
-    !.
 test(each_predicate_is_in_the_table, true(Missing == [])) :-
     read_file_to_string('docs/predicates.md', Text, []),
     findall(Name/Arity,
@@ -56,12 +53,6 @@ test(each_predicate_is_in_the_table, true(Missing == [])) :-
             ),
             Missing).
 
-paper('README.md').
-paper(File) :-
-    expand_file_name('docs/*.md', Files),
-    member(File, Files),
-    File \== 'docs/cognitive-robotics.md'. % test_cognitive_robotics.pl
-
 %   Name stands there, not as a part of another one.
 
 named(Text, Name) :-
@@ -71,24 +62,6 @@ named(Text, Name) :-
          char_type(C, csym) ),
     \+ ( sub_atom(Text, After, 1, _, C), char_type(C, csym) ),
     !.
-
-%   [text](file) in Markdown, from the folder of the file it stands in.
-
-linked(Target) :-
-    (   paper(Paper)
-    ;   member(Paper, ['ARCHITECTURE.md', 'CONTRIBUTING.md'])
-    ;   expand_file_name('docs/decisions/*.md', Decisions),
-        member(Paper, Decisions)
-    ),
-    read_file_to_string(Paper, Text, []),
-    sub_string(Text, Start, _, _, "]("),
-    From is Start + 2,
-    sub_string(Text, From, _, 0, Rest),
-    split_string(Rest, ")#", "", [Link|_]),
-    Link \== "",
-    \+ sub_string(Link, 0, _, _, "http"),
-    file_directory_name(Paper, Directory),
-    atomic_list_concat([Directory, /, Link], Target).
 
 named_example(File) :-
     read_file_to_string('README.md', Text, []),
