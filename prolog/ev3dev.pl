@@ -37,15 +37,14 @@ impossible. A call throws if an argument makes no sense.
 
 ## When a call fails {#hints}
 
-If no device can answer a call, or no motor carry it out, a warning says why
-and what is connected: at the prompt in each query, in a program the first
+If no device can answer a call, or no motor can carry it out, a warning says
+why and what is connected: at the prompt in each query, in a program the first
 time that a predicate fails for this cause. The flag `ev3dev_hints` is `once`,
-`off`, or `error`: then such a call throws an error with the same text, as
-existence_error(motor, Port), existence_error(sensor, Port) or
-domain_error(speed, Percent). `debug(ev3dev)` prints the cause each time, and
-how moves ended. Predicates that ask whether a device is there, as
-tacho_motor/1, print nothing, nor does a sensor whose value is another one
-than the call asks for.
+`off`, or `error`: then such a call throws an error with the same text, such
+as existence_error(motor, Port) or domain_error(speed, Percent).
+`debug(ev3dev)` prints each cause, and how moves ended. Predicates that ask
+whether a device is there, such as tacho_motor/1, print nothing, and neither
+does a sensor whose value is not the one that the call asks for.
 */
 
 :- set_prolog_flag(generate_debug_info, false).

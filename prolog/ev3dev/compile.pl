@@ -15,8 +15,8 @@ library(ev3dev) loads several times as fast after
 swipl -g "use_module(library(ev3dev/compile)),ev3dev_compile" -t halt
 ```
 
-What is made is for the Prolog that made it. After an upgrade of Prolog or of
-the pack it is not used any more, and the command is to be given again.
+The compiled files are only for the Prolog that made them. After an upgrade of
+Prolog or of the pack they are not used; give the command again.
 */
 
 :- dynamic

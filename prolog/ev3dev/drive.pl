@@ -61,7 +61,7 @@ can, and are those of the faster wheel; also `cm_per_s(N)`, and `dps(N)`,
 
 While the robot moves, a native loop reads wheels and gyro every 20 ms, keeps
 the pose, and keeps the robot on its course; Prolog may do something else
-meanwhile. It does so for all moves, those of library(ev3dev/robot), too, and
+meanwhile. The loop serves all moves, also those of library(ev3dev/robot), and
 ends when the motors rest.
 
 The gyro, if one is connected, gives the heading, unless

@@ -38,8 +38,8 @@
 
 /** <module> Exercises, and how programs do in them
 
-An exercise says what a robot's program is to do, in which worlds, and what
-that is worth. It is a file of facts and rules:
+An exercise says what a robot's program should do, in which worlds, and how
+many points it earns. It is a file of facts and rules:
 
 ```
 :- use_module(library(ev3dev/exercise)).
@@ -87,8 +87,8 @@ machine has to do.
       - open(Seeds)
         The runs that students can try. Default is the first three.
       - robot(Robot), noise(Boolean), thinking(Thinking)
-        As for sim_start/2. By `thinking(brick)` a program that computes for
-        long while its robot drives does what it would do on a brick.
+        As for sim_start/2. With `thinking(brick)` the robot drives on while
+        its program computes, as on a brick.
       - cpu(Seconds)
         How much time of a processor a run may use. Default is 10. There is
         one second more for each second of the robot's time.
@@ -101,7 +101,7 @@ machine has to do.
         For exercise_check/1, next to this file. Default is `solution.pl`.
 
   - world(Seed, World)
-    The world of a seed, as for sim_start/2. Without it that is `room`.
+    The world of a seed, as for sim_start/2; `room` if there is no such rule.
   - score(Points, Text)
     A rule whose body is true of a run that earns Points. Text says for what.
   - score(partial(Points), Text, Share)

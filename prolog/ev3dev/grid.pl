@@ -31,7 +31,7 @@
 /** <module> Finding a way over an unknown grid
 
 The robot of the paper's section 6. It knows the cell in which it is and the
-one to which it shall go, plans a way, takes it, and looks before each move.
+one to which it should go, plans a way, takes it, and looks before each move.
 Where its ultrasonic sensor sees something in the next cell it notes an
 obstacle, and plans again from where it stands.
 
@@ -43,8 +43,7 @@ obstacle, and plans again from where it stands.
 ```
 
 Cells, directions and the actions of plans are those of grid_map/2: `[X, Y]`,
-`[DX, DY]`, and `move`, `left` and `right`. Which planner makes the plan is a
-matter of an option.
+`[DX, DY]`, and `move`, `left` and `right`. An option chooses the planner.
 
 The middle of the cell `[X, Y]` is at `20*X, 20*Y` for pose/3, if cells are
 20 cm wide. Each move goes to such a place, so that errors do not add up. With

@@ -42,8 +42,9 @@ because/2; the libraries do so, too.
 outB runs at -30 %, since 2.31 s: too_near(18)
 ```
 
-A move of the robot is one command; how the drive keeps it on its course is
-not recorded. A new tree, such as that of sim_start/1, has an empty journal.
+A move of the robot is one command; how the drive keeps the robot on its
+course is not recorded. A new tree, such as that of sim_start/1, has an empty
+journal.
 */
 
 %!  because(:Goal, +Cause) is semidet.

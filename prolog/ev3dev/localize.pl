@@ -52,12 +52,12 @@ what the sensor measures.
 ?- go_cm(30, 40), localized_pose(X, Y, Heading, _).
 ```
 
-A robot that may be anywhere moves first: as long as it has not looked around
-it has no pose. What is measured on a whole turn is searched for on all of the
-map. From there a particle filter follows, in the thread that called
-localize_start/1 and while that waits, as events do (library(ev3dev/events)).
-If what is measured fits no pose any more, somebody has carried it away:
-localized/1 drops, and the next look around is searched for again.
+A robot that may be anywhere has no pose until it has looked around. The
+measurements of this turn are compared with the whole map. From there a
+particle filter follows the robot, in the thread that called localize_start/1
+and while that thread waits, as events do (library(ev3dev/events)). If the
+measurements no longer fit any pose, somebody has carried the robot away:
+localized/1 drops, and the next look around begins a new search.
 
 Sources: Thrun, Burgard, Fox: Probabilistic Robotics (2005), chapters 6 and 8.
 */

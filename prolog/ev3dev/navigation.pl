@@ -26,10 +26,10 @@
 :- fields(drive(views, facts, goal, margin, native, sensor, speed,
                 tolerance)).
 
-/** <module> Drive through a room that is not wholly known
+/** <module> Driving through a room that is only partly known
 
-The robot knows a map, as of library(ev3dev/roadmap), and where it is on it,
-by pose/3. What the map lacks it sees with its ultrasonic sensor on the way:
+The robot has a map, as for library(ev3dev/roadmap), and its place on it, by
+pose/3. What the map lacks it sees with its ultrasonic sensor on the way:
 
 ```
 ?- sim_start(room), set_robot(5.6, 10.6, outB, outC).

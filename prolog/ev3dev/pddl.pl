@@ -40,10 +40,9 @@ module that calls. Then they can be planned, run on the robot, and changed:
 
 The languages are STRIPS and ADL with types: negative, disjunctive and
 quantified preconditions, equality, conditional and universal effects; also
-derived predicates and costs of actions. A file that uses more is refused, and
-so is one with a name that is not declared: the error has file, line and
-column. Names are in small letters, as PDDL knows no capital ones. What
-becomes what:
+derived predicates and costs of actions. A file that uses more, or a name that
+is not declared, is an error with file, line and column. Names are in small
+letters, as PDDL knows no capital ones. What becomes what:
 
   - An action `move` with two parameters
     `prim_action(move(A, B))`, its poss/2, causes_true/3 and causes_false/3

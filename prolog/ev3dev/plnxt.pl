@@ -80,17 +80,17 @@ name in `examples/`, if it is put beside the program.
 No source of PLNXT is public. docs/reactive.md says which of its words are
 proven by programs and reports of its students, and which are guessed.
 
-What is different, and better: triggers are events of library(ev3dev/events).
-They happen in the thread that has created them, while it waits or reads a
-sensor, so they need no threads, cannot block the console, and do not make
-threads without end if a trigger's action creates triggers. A trigger happens
-when its condition becomes true, not again and again while it is. An error in
-it is printed with its Id. In programs that load this library `sleep(S)` means
-wait(S), so that triggers happen and simulated time passes.
+Triggers are events of library(ev3dev/events) here. They happen in the thread
+that has created them, while it waits or reads a sensor, so they need no
+threads, cannot block the console, and do not make threads without end if a
+trigger's action creates triggers. A trigger happens when its condition
+becomes true, not again and again while it is. An error in it is printed with
+its Id. In programs that load this library `sleep(S)` means wait(S), so that
+triggers happen and simulated time passes.
 
 Speeds are in degrees of the wheels per second. Distances are in centimeters,
 angles of the robot in degrees. A move that a trigger has stopped succeeds.
-One that ends early for another reason, as a blocked wheel, fails. An
+One that ends early for another reason, such as a blocked wheel, fails. An
 exception stops it.
 */
 

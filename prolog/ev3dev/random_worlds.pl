@@ -17,10 +17,10 @@
               [ append/3, max_list/2, member/2, min_list/2,
                 nth0/3, reverse/2, subtract/3, sum_list/2 ]).
 
-/** <module> Worlds that chance makes
+/** <module> Random worlds
 
-For a program that is to cope with any room, and not with one that its writer
-knows. Each predicate answers a list of facts for sim_start/2:
+For a program that should work in any room, and not only in one that its
+writer knows. Each predicate answers a list of facts for sim_start/2:
 
 ```
 ?- random_room(7, [boxes(3-5)], World), sim_start(World).
@@ -31,13 +31,12 @@ Prolog. Each world can be solved: a room has ways between the places that are
 to be free, all free cells of a grid hang together, a maze has a way to its
 exit, and a track has no bend too narrow for a robot.
 
-A Number of something is a whole number, or `From-To`, of which chance takes
-one.
+A Number is an integer, or `From-To`: then one of these is drawn.
 
 Rooms and grids may have things that robots push, see docs/worlds.md: cubes of
-5 cm and 50 g, which are called `thing1`, `thing2` and so on, and whose colors
-take turns: red, yellow, green and blue. A robot can drive to each of them
-without moving another.
+5 cm and 50 g, with the names `thing1`, `thing2` and so on, and the colors
+red, yellow, green and blue in turn. A robot can drive to each of them without
+moving another.
 */
 
 %!  random_room(+Seed, +Options, -World) is det.

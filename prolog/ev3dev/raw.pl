@@ -17,9 +17,9 @@
 /** <module> Registers and voltages of sensors
 
 What a sensor says without a driver in between: the bytes of a sensor on the
-I2C bus, and the voltage of one that is only a voltage. So a program uses what
-ev3dev has no mode or command for, and sensors that somebody has built.
-Loaded apart from library(ev3dev):
+I2C bus, and the voltage of one that is only a voltage. With these a program
+uses what ev3dev has no mode or command for, and sensors that somebody has
+built. Loaded apart from library(ev3dev):
 
 ```
 ?- use_module(library(ev3dev/raw)).
@@ -32,13 +32,13 @@ Volts = 2.504.
 ## Sensors on the I2C bus {#i2c-sensors}
 
 Most sensors of other makers, and the ultrasonic sensor of the NXT, are a row
-of registers of a byte each, with numbers from 0. Sensors for the NXT have the
-text of their version from 0 on, that of their maker from 8 on, and their name
-from 16 on, of 8 characters each; 65, or 0x41, is for commands, and the
-measurements mostly begin at 66. Their manuals list the others.
+of registers of a byte each, with numbers from 0. Sensors for the NXT have
+three texts of 8 characters: the version from register 0 on, the maker from 8
+on, the name from 16 on. Register 65, or 0x41, is for commands, and the
+measurements mostly begin at 66. Manuals list the others.
 
-Some registers hold settings that outlast power: a wrong byte there, as for
-the address, can make a sensor useless.
+Some registers hold settings that outlast power: a wrong byte there, such as a
+wrong address, can make a sensor useless.
 
 The kernel must know the sensor: lego_sensor/1 enumerates it. If it does not,
 put the port into the mode `other-i2c`, and load any driver for the address in

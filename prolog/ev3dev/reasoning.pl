@@ -27,8 +27,9 @@
 
 /** <module> See Prolog think
 
-What Prolog tries, what fails, and where it goes back, beside what the robot
-does. Prolog takes a binding back; a robot that has moved stays where it is.
+Shows what Prolog tries, what fails, and where it goes back, beside what the
+robot does. Prolog takes a binding back; a robot that has moved stays where it
+is.
 
 ```
 ?- reasoning(start).
@@ -36,11 +37,11 @@ false.
 ?- reasoning_text.
 ```
 
-Recorded are the goals in the clauses of the program's own files. What a
-predicate of the pack or of Prolog does inside is not, but the goals of the
-program that it calls are. Other threads are not recorded. The program does
-what it does without a recorder; it takes up to ten times as long to compute,
-also by thinking(brick) of sim_start/2. docs/reasoning.md is a lesson with it.
+The record has the goals in the clauses of the program's own files, and not
+what a predicate of the pack or of Prolog does inside, except goals of the
+program that it calls. Other threads are not recorded. The program does what
+it does without a recorder; it takes up to ten times as long to compute, also
+by thinking(brick) of sim_start/2. docs/reasoning.md is a lesson with it.
 */
 
 %!  reasoning(:Goal) is nondet.

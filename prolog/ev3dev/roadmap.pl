@@ -40,13 +40,13 @@ all obstacles. Where it bends it becomes an arc, as wide as fits. How the
 roadmap is made is the option method(Method):
 
   - visibility
-    All corners of the obstacles are joined that see each other. That has the
-    shortest way, and if it has none, there is none, but where a bend would
-    have to be within 2 % of the radius. Its work grows with the square of the
-    number of corners.
+    All corners of the obstacles that see each other are joined. This finds
+    the shortest way, and if it finds none, there is no way, except where a
+    bend would have to be within 2 % of the radius. The work grows with the
+    square of the number of corners.
   - prm
     Probabilistic roadmap: points are drawn at random, and each is joined with
-    those next to it. Its work grows with the number of points.
+    those next to it. The work grows with the number of points.
   - rrt
     Rapidly exploring random tree: a tree grows from the start towards points
     drawn at random, until it is at the goal.
@@ -60,8 +60,8 @@ roadmap is made is the option method(Method):
 
 A Map is a list of facts or, as for sim_start/1, the name of a shipped world
 or a file. Lengths are in centimeters, x to the right and y up. A Map may have
-all facts of a world. Only those count that stop a robot: bounds/4, wall/4,5,
-box/4,5, circle/3 and map/2. A list may also hold
+all facts of a world. Only those that stop a robot count: bounds/4, wall/4,5,
+box/4,5,6, circle/3,4 and map/2. A list may also hold
 
   - polygon(Corners)
     At least three corners, which are places, in either order. It may be
@@ -76,7 +76,7 @@ and Goal may be arithmetic expressions.
     Of the circle within which the robot turns. Default is 8, the shipped
     robot's.
   - margin(+Cm)
-    What it keeps from obstacles in addition. Default is 4.
+    The additional distance from obstacles. Default is 4.
   - method(+Method)
     Default is `visibility`.
   - arc_radius(+Cm)
@@ -86,7 +86,7 @@ and Goal may be arithmetic expressions.
     How many points are drawn at random, at most 100000. Default is 500. If
     no way was found by then, there is none; no time limits it.
   - seed(+Integer)
-    Where chance starts from. Default is 1. The same seed gives the same way.
+    The random seed, 1 by default. The same seed gives the same way.
 */
 
 %!  roadmap_path(+Map, +Start, +Goal, -Points) is semidet.

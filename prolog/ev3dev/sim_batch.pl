@@ -17,8 +17,8 @@
 
 /** <module> The same program in many simulations
 
-How well does a program do, and not only once? sim_batch/5 runs it with many
-seeds, on all processors, and collects a score from each run.
+One run says little about a program. sim_batch/5 runs it with many seeds, on
+all processors, and collects a score from each run.
 
 ```
 score(Cm) :-                            % in explorer.pl
@@ -34,7 +34,7 @@ Scores = [1-12.5, 2-31.0, 3-error(...), ...].
 ```
 
 Each run is a process of its own, which begins right after File was loaded. So
-none knows anything of another one, and the scores are the same with one
+no run knows anything of another one, and the scores are the same with one
 processor as with many.
 */
 

@@ -17,7 +17,7 @@
 
 The brick has a clock, and so has the simulator. These predicates use the
 clock of the devices in use. So a program means the same on the robot and in a
-simulation, where time may pass much faster than on the wall.
+simulation, where time may pass much faster.
 
 ```
 ?- go(30), wait(0.5), stop.

@@ -11,7 +11,7 @@
 
 /** <module> The command line of app/ev3dev.pl
 
-What makes no sense throws usage(Format, Values), a sentence.
+A command line that makes no sense throws usage(Format, Values), a sentence.
 
 library(optparse) would save nothing: in 7.2.3 it takes no 60 for a float and
 prints by itself, and it knows no commands.

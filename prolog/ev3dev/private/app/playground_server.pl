@@ -7,8 +7,8 @@
 
 /** <module> The playground, served from a folder
 
-What `swipl ev3dev playground` does. The server of the view hands out files;
-the robot is in the browser.
+`swipl ev3dev playground`: the server of the view hands out files; the robot
+is in the browser.
 */
 
 %!  serve(+Folder, +Address, +Port, +Open)

@@ -11,9 +11,9 @@
 
 /** <module> Directories that nobody else reads, and that do not stay
 
-What programs of students do in a directory must not keep it there: a tree of
-any depth, rights that are taken away, links to other places. So the system's
-rm removes it, which follows no links.
+The programs of students cannot keep such a directory from being removed, by a
+tree of any depth, by rights that are taken away, or by links to other places:
+the system's rm removes it, which follows no links.
 */
 
 :- dynamic place/1.

@@ -22,8 +22,8 @@
 
 /** <module> A brick on another machine
 
-Its process here is ssh, or what a program says; library(ev3dev/worker) is
-behind it. far_frames.pl has what they say to each other. Two threads here
+Its process here is ssh, or another command, which starts
+library(ev3dev/worker) there. far_frames.pl has the protocol. Two threads here
 belong to it: one that receives, and one that says that this program lives.
 Authentication and encryption are those of ssh.
 */

@@ -21,11 +21,11 @@
 
 /** <module> Options and numbers of the pack's predicates
 
-An option that a predicate does not have is an error: it is most likely one
-that is misspelt.
+An option that a predicate does not have is an error: most likely it is
+misspelt.
 
-A measure, as a length, an angle, a speed or a time, may be an arithmetic
-expression, as an argument and as an option. A count is an integer.
+A measure, such as a length, an angle, a speed or a time, may be an arithmetic
+expression, also in an option. A count is an integer.
 */
 
 %!  must_be_options(+Domain, +Names, +Options) is det.

@@ -12,8 +12,8 @@
 
 /** <module> Conditions about sensors
 
-The same words for sensor_wait/1, until/2, on/2 and rules: a comparison, as
-`us_dist_cm(in1) < 20` or `touch(in4) = pressed`, or a goal, as
+The same words for sensor_wait/1, until/2, on/2 and rules: a comparison, such
+as `us_dist_cm(in1) < 20` or `touch(in4) = pressed`, or a goal, such as
 `(us_dist_cm(_, D), D < 20)`.
 */
 

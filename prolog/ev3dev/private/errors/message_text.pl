@@ -2,7 +2,7 @@
           [ message_text/2              % +Error, -Text
           ]).
 
-/** <module> What Prolog would print of an error
+/** <module> The text that Prolog would print for an error
 */
 
 %!  message_text(+Error, -Text) is det.

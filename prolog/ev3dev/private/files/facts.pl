@@ -14,9 +14,8 @@
 
 /** <module> Files of facts about worlds and robots
 
-The files are read, never run: what stands in them are facts, each checked
-as it is read, and nothing else. What is wrong with one is thrown with file
-and line.
+The files are read, never run. Each fact is checked as it is read; an error
+has file and line.
 */
 
 %!  located_facts(+Kind, +Source, -Located) is det.

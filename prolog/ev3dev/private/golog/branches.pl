@@ -23,12 +23,12 @@
 
 /** <module> Branches for what will be sensed
 
-A conditional plan is made before its actions have sensed anything. After
-a sensing action the value of its fluent is '$sensed'. A condition that
-depends on it cannot be decided, but its cases can be assumed one by one:
-'$golog_branch'(Cases) is thrown, and the planner goes on in each. So a
-plan never relies on a value that it does not test. A case is
-Test-Assumption; the Test of the last may be `else`.
+A conditional plan is made before its actions have sensed anything. After a
+sensing action the value of its fluent is '$sensed'. A condition that depends
+on it cannot be decided, but its cases can be assumed one by one:
+'$golog_branch'(Cases) is thrown, and the planner goes on in each. So a plan
+never relies on a value that it does not test. A case is Test-Assumption; the
+Test of the last may be `else`.
 */
 
 %!  sensed_later(+Action, +Situation0, -Situation, +Context) is det.

@@ -24,10 +24,10 @@
 
 /** <module> A domain of Golog, made ground
 
-What does not depend on fluents is decided here: of a condition remains an
-Expression of what has to be tested. It is `true`, `false`, a ground fluent
-that is true, `Fluent = Value` for one with other values, `[and|Es]`,
-`[or|Es]` or `[not, E]`. Planners can do with it what they like.
+What does not depend on fluents is decided here. The rest of a condition is an
+Expression that has to be tested. It is `true`, `false`, a ground fluent that
+is true, `Fluent = Value` for one with other values, `[and|Es]`, `[or|Es]` or
+`[not, E]`. Planners can do with it what they like.
 
 A condition may compute with the value of a fluent. It is decided for each
 value that the fluent may come to have, so these must be known:

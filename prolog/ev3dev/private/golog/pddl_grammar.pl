@@ -17,9 +17,9 @@
 :- use_module('../errors/errors', [throw_error/3]).
 :- use_module('../files/directory', [readable_file/3]).
 
-/** <module> What may stand where in PDDL
+/** <module> The grammar of PDDL
 
-The tables of this file say what is read, and by them the rest is refused.
+The tables of this file say what is read; all else is refused.
 */
 
 %   keyword(?In, ?Keyword, ?Times): Times is `once` or `often`.

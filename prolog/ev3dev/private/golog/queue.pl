@@ -9,8 +9,8 @@
 
 /** <module> Queues of messages
 
-SWI-Prolog's, which threads share. In a page there are no threads, and no
-queues of SWI-Prolog: there they are facts.
+Queues of SWI-Prolog, which threads share. A page has neither threads nor such
+queues: there they are facts.
 */
 
 :- dynamic message/2.                   % Queue, Message

@@ -10,10 +10,10 @@
 
 /** <module> States that a search knows
 
-A search that comes again to a program and a state from which it has found no
-end, or is looking for one, need not go on. That pays only in a long one, and
-is not sound where a condition asks what was done before, or the simulator
-tries the actions.
+A search need not go on from a program and a state from which it has found no
+end, or is looking for one. That pays only in a long search, and is not sound
+where a condition asks what was done before, or where the simulator tries the
+actions.
 
 Source: Reinefeld, Marsland: Enhanced iterative-deepening search (1994), for
 how deep the search was there.

@@ -17,11 +17,11 @@
 
 /** <module> A robot's knowledge of its grid
 
-Which cells it found obstructed, and which it found free, and when. What it
-found may fade: an obstacle that moves about is forgotten after some time.
-Each time that it is still there when the robot comes again, that time
-doubles. So what stands forever is at last remembered for longer than any way
-takes, and a robot does not go to and fro between two obstacles without end.
+The cells that it found obstructed or free, and when. An obstacle that moves
+about is forgotten after some time. Each time that it is still there when the
+robot comes again, that time doubles. So an obstacle that stays is at last
+remembered for longer than any way takes, and a robot does not go to and fro
+between two obstacles without end.
 */
 
 :- dynamic

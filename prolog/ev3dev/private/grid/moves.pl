@@ -18,7 +18,7 @@
 
 /** <module> Moves from cell to cell
 
-How it moves on its grid, and how it looks before it does.
+How a robot moves on its grid, and how it looks before it does.
 */
 
 :- meta_predicate carry_out(+, 1, -).

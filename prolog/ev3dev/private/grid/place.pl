@@ -27,7 +27,7 @@
 
 /** <module> A robot on a grid
 
-Which grid it is on, and where on it the robot is.
+The grid of the brick in use, and where the robot is on it.
 */
 
 :- dynamic

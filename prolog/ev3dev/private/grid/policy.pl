@@ -20,9 +20,9 @@
 
 /** <module> Policies: what to do in each state of a grid
 
-A plan says what to do one after the other, and ends where the robot leaves
-its way. A policy, or feedback plan, says for each state what to do there: a
-robot that was pushed into another cell asks it again.
+A plan is a sequence of actions, and of no use once the robot has left its
+way. A policy, or feedback plan, says what to do in each state: a robot that
+was pushed into another cell asks it again.
 
 ```
 ?- grid_policy([ rows([ "....",

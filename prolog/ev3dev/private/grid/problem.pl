@@ -11,7 +11,7 @@
 
 /** <module> Planning problems on grids
 
-What a map of private/grid/map.pl asks of a planner of
+The problem that a map of private/grid/map.pl poses to a planner of
 library(ev3dev/planners).
 
 ```

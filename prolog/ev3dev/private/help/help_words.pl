@@ -4,8 +4,8 @@
 
 /** <module> Other words for what predicates do
 
-A person who looks for them by apropos/1 knows these words, and neither the
-names nor the first sentences of the comments.
+A person who asks apropos/1 may know these words, and neither the names nor
+the first sentences of the comments.
 */
 
 %!  words_for(?Words, ?Names) is nondet.

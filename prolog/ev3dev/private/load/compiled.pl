@@ -11,19 +11,19 @@
 
 /** <module> Compiled libraries
 
-To read its sources takes a brick a second; what was compiled loads in a tenth
-of that. It comes in units of several files: when one of them is to be loaded,
-its unit is, and then Prolog finds that the file is there. Where there is no
-unit, Prolog reads the source.
+A brick needs a second to read the sources of the pack, and a tenth of that
+for what was compiled. A unit is several files in one: when one of them is
+needed, its unit is loaded, and then Prolog finds that the file is there.
+Where there is no unit, Prolog reads the source.
 
 An index names the units. It holds for the Prolog, the folder and the sources
-that they were made by: if a source has another time now, or if another Prolog
-runs, nothing of it is used. A unit is used only if its file has the contents
-that the index says.
+that made them: if a source has another time now, or if another Prolog runs,
+no unit is used. A unit is used only if its file has the contents that the
+index says.
 
-This file is always read, so it is short: what goes on with the index is in
-units.pl, which is compiled, too, and is not loaded without an index. This
-file loads nothing else.
+This file is always read, so it is short: units.pl does the work with the
+index. It is compiled, too, and is not loaded without an index. This file
+loads nothing else.
 */
 
 %!  indexed(-Units) is semidet.

@@ -5,9 +5,9 @@
 
 /** <module> The pack where it cannot be loaded
 
-Its foreign library is missing, as after a pack_install that found no Rust to
-build it, or too few files may be open. One message says so.
-The files of the pack are then read for their exports alone: each exported
+Its foreign library is missing, for example after a pack_install that found no
+Rust to build it, or too few files may be open. One message says so. The files
+of the pack are then read for their exports alone: each exported
 predicate throws the same error. Nothing loads this file on a machine that has
 the library.
 */

@@ -11,9 +11,9 @@
 
 /** <module> A run as a picture with a slider
 
-The picture of the world is the simulator's; what is added is the way of the
-robot in ten parts that grow darker, where it ran into something, the ways of
-things that were moved, and robot and things, which a slider moves.
+The simulator draws the world. This module adds the way of the robot in ten
+parts that grow darker, the places where it ran into something, the ways of
+things that were moved, and the robot and the things, which a slider moves.
 */
 
 %!  film(+Exercise, +Seed, +Result) is det.

@@ -18,9 +18,9 @@
 
 The file `runs.pl` has a term kept(Key, Result) in each line. Key stands for
 all that a result depends on, so the same run is not made again. A line that
-is not whole, as of a marker that was killed, is left out. A run is
-run(Its, World, Robot): the world and robot of the exercise, and what else a
-result depends on.
+is not whole, because the marker was killed, is left out. A run is run(Its,
+World, Robot): the world and robot of the exercise, and what else a result
+depends on.
 */
 
 :- dynamic known/2.                     % Key, Result

@@ -10,8 +10,8 @@
 /** <module> How far a marking is
 
 On a terminal one line says it, which is written again each time. In a file
-there is a line for every ten programs, or none. The time that is left is a
-guess by that of the runs that are over.
+there is a line for every ten programs, or none. The remaining time is
+estimated from the runs that are over.
 */
 
 :- fields(progress(all, seeds, began, over)).

@@ -18,10 +18,9 @@
 /** <module> The record of a run, for scores and reports
 
 The pose is recorded ten times a second, and so are the things that robots
-push, if one has moved since, or a gripper has closed or opened. Collisions
-and what the robot said are as the simulator knows them at the end. What the
-sensors showed when it ran into something is kept at that moment, as the
-simulator forgets it.
+push, if one has moved since, or a gripper has closed or opened. The simulator
+knows collisions and what the robot said at the end. What the sensors showed
+at a collision is kept at that moment, because the simulator forgets it.
 */
 
 :- meta_predicate with_record(0, +, +, +).

@@ -17,9 +17,9 @@
 
 /** <module> Processor time and sleep of a process and its children
 
-Seconds in which a process sleeps are counted, and seconds of a processor. So
-no other process can make this one come to its limits: while it waits for a
-processor, nothing is counted.
+Seconds in which a process sleeps are counted, and seconds of a processor, but
+not those in which it waits for a processor. So no other process can make this
+one come to its limits.
 
 used(Began, Alive, Looked, Cpu, Slept, Rest, Threads, Bytes) has times of the
 wall: when this began, when there was the last sign of life, and when the

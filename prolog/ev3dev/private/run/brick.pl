@@ -27,11 +27,10 @@
 /** <module> The brick in use
 
 What is known of a robot belongs to its brick, which is the first argument of
-such facts. So what one brick knows is nothing to another one. A brick is a
-number: 0 is the one that is there from the start.
+such facts. A brick is a number: 0 is the one that is there from the start.
 
 Each thread has one in use. The native code knows it; a new thread gets that
-of the thread that made it by a flag of Prolog, which it inherits.
+of the thread that made it, by a flag of Prolog, which threads inherit.
 */
 
 :- dynamic

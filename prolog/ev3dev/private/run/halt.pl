@@ -23,10 +23,10 @@ tries to is aborted.
 
 If Prolog does not end within two seconds of such a signal, the process is
 ended without its at_halt/1 goals. Whatever the flag says, the motors stop at
-any other signal that ends the process, and at one that makes it stand, as
-Ctrl-Z does. If the process is killed, another one stops its motors. It begins
-with the first motor that runs, unless the flag `ev3dev_stop_at_kill` is then
-`false`. `docs/safety.md` has the details.
+any other signal that ends the process, and at one that suspends it, such as
+Ctrl-Z. If the process is killed, another one stops its motors. That one
+begins with the first motor that runs, unless the flag `ev3dev_stop_at_kill`
+is then `false`. `docs/safety.md` has the details.
 */
 
 stop_at_halt :-

@@ -5,8 +5,8 @@
 
 /** <module> The prompt of the toplevel
 
-What Prolog does while it waits for a query, it does within the call that
-reads the query.
+What happens while Prolog waits for a query happens within the call that reads
+the query.
 */
 
 :- meta_predicate acting_at_prompt(0).

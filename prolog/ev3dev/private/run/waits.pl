@@ -45,8 +45,8 @@ A tick is a slice at whose end this thread serves its listeners and events:
 those that library(ev3dev/events) and library(ev3dev/rules) add. A program
 that does not load them has no ticks.
 
-What listens stands in a backtrackable global variable. So an exception, a
-failure and a cut end it, whatever they leave.
+Listeners are in a backtrackable global variable. So an exception, a failure
+and a cut end them.
 */
 
 %!  waited(+Reason) is semidet.

@@ -10,8 +10,8 @@
 /** <module> The random numbers of a program that is simulated
 
 Prolog has a generator for each thread, and for each engine; library(random)
-draws from it, too, and need not be loaded here. So what was before is a
-global variable, which each of them has for itself.
+draws from it, too, and need not be loaded here. So its former state is in a
+global variable, of which each of them has its own.
 */
 
 :- use_module('../checks/arguments', [option/2]).

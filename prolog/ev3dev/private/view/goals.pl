@@ -13,8 +13,8 @@
 /** <module> Goals that are typed into a page
 
 Only with the option `goals(true)`, and only at localhost. A goal runs in a
-thread of its own, as a part of the program. It stands in the log, with what
-it prints and its answers. What it reads is typed into the page.
+thread of its own, as a part of the program. The log shows it, with its output
+and its answers. What it reads is typed into the page.
 */
 
 :- meta_predicate goal_solve(+, +, +, +, 1).

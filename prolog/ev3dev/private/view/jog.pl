@@ -10,9 +10,9 @@
 
 /** <module> Driving by the keys of a page
 
-A person drives while no program runs. The page says again and again how
-fast; when it no longer does, the robot stops. On the virtual clock, time then
-passes as fast as real time, as else it would stand.
+A person drives while no program runs. The page says again and again how fast;
+when it no longer does, the robot stops. On the virtual clock, time meanwhile
+passes as fast as real time; else it would stand still.
 */
 
 :- dynamic

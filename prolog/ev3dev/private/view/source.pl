@@ -11,10 +11,10 @@
 
 /** <module> The text of the program, and what of it is active
 
-While a page shows the text, the main thread is asked some times in a second
-which clauses it is in. It answers as a signal, between two of its goals: it
-looks at its own frames, and at the rule of behave/1,2 that is active. Nothing
-in the program changes for it.
+While a page shows the text, a signal asks the main thread some times in a
+second which clauses it is in. Between two of its goals it looks at its own
+frames, and at the rule of behave/1,2 that is active. Nothing in the program
+changes for it.
 */
 
 :- dynamic
