@@ -130,6 +130,7 @@ test(after_an_end_that_is_canceled_they_start_and_stop_as_ever,
 test(a_program_that_is_told_to_end_stops_its_motors,
      [ forall(( tree(Tree),
                 member(Signal, [term, int, hup]),
+                \+ says_nothing_at_its_end(Tree, Signal),
                 member(Wait, [ "repeat, sleep(0.01), fail",
                                "motor_wait([outB, outC], [], _)",
                                "use_module(library(ev3dev/drive)),
@@ -150,6 +151,11 @@ test(a_program_that_is_told_to_end_stops_its_motors,
                 end_output(Child, Output),
                 left(outB, command, Output, B),
                 left(outC, command, Output, C) )).
+
+% 7.2.3 ends by Ctrl-C without its hooks, which say in the simulator what a motor had.
+says_nothing_at_its_end(simulator, int) :-
+    current_prolog_flag(version, Version),
+    Version < 80000.
 
 test(a_move_that_a_signal_stops_does_not_end,
      [ forall(( tree(Tree), Tree \== simulator, member(Round, [1, 2, 3, 4, 5, 6]) )),

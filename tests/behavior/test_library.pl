@@ -53,7 +53,7 @@ test(each_library_loads_alone,
     run_program(Program, [], Status, Output).
 %   What is compiled is not read with pldoc_collecting.
 test(sources_load_in_silence_whatever_the_flags,
-     [ forall(member(Flag, [iso, optimise])),
+     [ forall(( member(Flag, [iso, optimise]), \+ prolog_itself_complains(Flag) )),
        true(Status-Output == exit(0)-"") ]) :-
     findall(Text, ( public_library(Library), Library \== ev3dev,
                     format(string(Text), ":- use_module(library(ev3dev/~w), []).\n", [Library]) ),
@@ -61,6 +61,10 @@ test(sources_load_in_silence_whatever_the_flags,
     atomics_to_string([":- create_prolog_flag(pldoc_collecting, true, []).
                         :- set_prolog_flag(", Flag, ", true).\n"|Texts], Program),
     run_program(Program, [], Status, Output).
+%   Libraries of 7.2.3 do not load with this flag.
+prolog_itself_complains(iso) :-
+    current_prolog_flag(version, Version),
+    Version < 80000.
 % The simulator is not a directory.
 test(takes_the_tree_from_the_environment,
      [ forall(of_files(Tree)), true(Status-Output == exit(0)-"[outA,outB,outC,outD]") ]) :-

@@ -145,6 +145,10 @@ place_in(Output, Place) :-
     !,
     term_string(Place, Line).
 
+limits_cost_nothing :-
+    current_prolog_flag(version, Version),
+    Version >= 80000.
+
 :- begin_tests(thinking).
 test(what_a_program_infers_passes_as_time, true(( abs(T-2.0) < 0.1, abs(X-50) < 3 ))) :-
     place(thinking(100000), "go(30), count(200000)", [X, _, _, T]).
@@ -160,11 +164,14 @@ test(it_is_the_same_each_time,
                                                        us_dist_cm(in1, _) ), T, []),
                                wait(0.3), count(20000), thread_join(T, _)" ]),
                 % both/2 needs engines
-                ( sub_string(Goals, 0, _, _, "both") -> current_predicate(engine_create/3) ; true ) )),
+                ( sub_string(Goals, 0, _, _, "both") -> current_predicate(engine_create/3) ; true ),
+                ( sub_string(Goals, _, _, _, "for_seconds") -> limits_cost_nothing ; true ) )),
        true(One-All = One-[_]) ]) :-
     findall(Place, ( between(1, 3, _), place(thinking(brick), Goals, Place) ), Places),
     sort(Places, All).
-test(it_is_the_same_however_often_a_limit_looks, One-All == One-[One]) :-
+% In 7.2.3 one that has looked has an inference less.
+test(it_is_the_same_however_often_a_limit_looks,
+     [condition(limits_cost_nothing), true(One-All == One-[One])]) :-
     findall(Place,
             ( member(Every, [1000, 0.05, 0.01, 0.002]),
               format(string(Goals),
