@@ -1,9 +1,11 @@
 % Three robots in a column: the first one drives at changing speeds, and the
 % others keep their distance.
 %
-%   ?- start. The first one reports its speed to the others, ten times a
-% second, so they brake when it brakes. Each corrects its distance by its own
-% ultrasonic sensor.
+%   ?- start.
+%
+% The first one reports its speed to the others, ten times a second, so they
+% brake when it brakes. Each corrects its distance by its own ultrasonic
+% sensor.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/bricks)).

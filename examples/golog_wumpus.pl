@@ -1,7 +1,7 @@
 % The cave of the wumpus, 4 by 4 cells of 30 cm: one cell has the wumpus, some
-% have a pit, and both destroy a robot. It smells in the cells beside the
-% wumpus, there is a draft in the cells beside a pit, and the gold glitters in
-% its own cell.
+% have a pit, and both destroy a robot. There is a smell in the cells beside
+% the wumpus, and a draft in the cells beside a pit; the gold glitters in its
+% own cell.
 %
 %   ?- cave(0-2, [2-0, 2-2], 1-2, Cave), sim_start(Cave), start.
 %
