@@ -20,7 +20,7 @@ prints by itself, and it knows no commands.
 %   command(?Command, ?Arguments, ?Text): [FILE] may be missing, and there may
 %   be several of PROGRAM...
 command(view, '[FILE]', 'show the robot in a browser, and the toplevel').
-command(sim, 'WORLD', 'the same with a simulated robot').
+command(sim, 'WORLD', 'view, with a simulated robot in WORLD').
 command(run, 'FILE', 'load a program, call start/0 or main/0 or --goal').
 command(playground, '[FOLDER]',
         'serve the page with Prolog and the robot in it').
