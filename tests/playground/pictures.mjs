@@ -40,10 +40,5 @@ await page.click('#run');
 await until(async () => (await state()).said.length > 3, 'what is wrong');
 await page.mouse.move(60, 240);
 await take('playground-mistakes');
-
-await page.setViewport({ width: 390, height: 780 });
-await page.click('#tabs [data-shows=robot]');
-await until(() => page.$eval('#robot', (frame) => frame.clientWidth > 300), 'the robot');
-await take('playground-phone');
 await browser.close();
 server.close();

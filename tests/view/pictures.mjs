@@ -12,7 +12,7 @@ async function runs(session, page, goal, seconds) {
 const PICTURES = [
   {
     name: 'view', world: 'room', example: 'obstacle_avoidance', goal: 'start', seconds: 33,
-    shots: [{ name: 'view-light' }, { name: 'view-phone', width: 390, height: 844, phone: true, scale: 1 }],
+    shots: [{ name: 'view-light' }],
   },
   { name: 'grid', world: 'grid', example: 'grid_navigation', goal: 'start([7, 7])', seconds: 26, shots: [{ name: 'view-grid', scheme: 'dark' }] },
   {
