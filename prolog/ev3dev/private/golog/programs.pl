@@ -1,6 +1,5 @@
 :- module(ev3dev_golog_programs,
           [ fresh/4,                    % +Variables, +Term0, -Term, -Choices
-            substituted/4,              % +Variable, +Value, +Term0, -Term
             renamed/2,                  % +Term0, -Term
             mapped/3,                   % :Closure, +Term0, -Term
             has_binder/1,               % +Term

@@ -1,7 +1,6 @@
 :- module(ev3dev_golog_steps,
           [ agent_of/3,                 % +Action, -Agent, +Module
             needed/3,                   % +Action, -Other, +Module
-            excluded/3,                 % +Action1, +Action2, +Module
             refused/3,                  % +Step, +Module, -Why
             step_after/5,               % +Step, +Situation0, -Situation,
                                         % -Why, +Context
