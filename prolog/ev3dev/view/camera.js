@@ -38,6 +38,8 @@ export class Camera {
     const ratio = devicePixelRatio || 1;
     this.width = width;
     this.height = height;
+    // What lies over the page leaves the tools free.
+    document.documentElement.style.setProperty('--shown', `${width}px`);
     const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
     if (this.canvas.width !== w || this.canvas.height !== h) {
       this.canvas.width = w;

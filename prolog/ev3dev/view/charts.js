@@ -252,7 +252,7 @@ export class Charts {
       menu.hidePopover();
       act();
     });
-    const menu = el('div', { class: 'menu series-menu', popover: 'auto', role: 'group', 'aria-label': 'What the chart shows' },
+    const menu = el('div', { class: 'menu popup series-menu', popover: 'auto', role: 'group', 'aria-label': 'What the chart shows' },
       ...names.map((name) => entry(this.series(name).label, (button) => {
         const on = !chart.series.includes(name);
         attribute(button, 'aria-checked', on);
@@ -269,8 +269,8 @@ export class Charts {
     const near = (this.views.find((view) => view.chart === chart)?.more ?? $('chart-add')).getBoundingClientRect();
     document.body.append(menu);
     menu.showPopover();
-    menu.style.left = `${Math.max(8, near.right - menu.offsetWidth)}px`;
-    menu.style.top = `${within(8, near.bottom + 4, innerHeight - menu.offsetHeight - 8)}px`;
+    menu.style.left = `${Math.max(8, near.right - menu.offsetWidth) + scrollX}px`;
+    menu.style.top = `${within(8, near.bottom + 4, innerHeight - menu.offsetHeight - 8) + scrollY}px`;
     menu.querySelector('button').focus();
     menu.addEventListener('keydown', (event) => {
       if (event.key !== 'Escape') return;

@@ -275,11 +275,11 @@ export class Hands {
       act();
     };
     const entry = (words, act) => el('button', { onclick: onclick(act) }, words);
-    const taken = this.model.snapshots ?? [];
+    const taken = this.model?.snapshots ?? [];
     let n = 1;
     while (taken.includes(`snapshot-${n}`)) n += 1;
     // Without a robot one can only begin a simulation.
-    if (!this.model.simulated) return this.choices.entries();
+    if (!this.model?.simulated) return this.choices.entries();
     return [
       ...this.choices.entries(),
       entry('Take a snapshot', () => this.wire.send(`save snapshot-${n}`)),

@@ -110,6 +110,22 @@ export function clock(seconds) {
   return `${Math.floor(minutes / 60)}:${two(minutes % 60)}:${two(rest)}`;
 }
 
+/** A list that stays at its end, unless somebody has scrolled up from there, also if it was not
+    displayed meanwhile. Answers what is called after rows were added; with `true` it goes there
+    in any case. */
+export function following(list) {
+  let atEnd = true;
+  const follow = (goes = false) => {
+    atEnd ||= goes;
+    if (atEnd) list.scrollTop = list.scrollHeight;
+  };
+  list.addEventListener('scroll', () => {
+    if (list.clientHeight) atEnd = list.scrollTop + list.clientHeight >= list.scrollHeight - 24;
+  });
+  new ResizeObserver(() => follow()).observe(list);
+  return follow;
+}
+
 let noticeEnds = 0;
 
 /** A line over the page; it goes away by itself if `seconds` are given.

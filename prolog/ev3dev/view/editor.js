@@ -1,9 +1,11 @@
 // The editor of a world. It works on a draft, so the world that is simulated stays as it is
 // until the draft is started in its place. Each change is checked by the program, which knows
-// where the robot can stand; one that is refused is undone.
+// where the robot can stand; one that is refused is undone. A draft has what is drawn, and as
+// `typed` the text of facts that somebody has changed since then.
 
 import { $, attribute, download, el, icon, notice, pressed, sentence, text, toggle } from './dom.js';
 import { along, disc, fill, trace } from './canvas.js';
+import { kept, keep } from './panels.js';
 import { COLORS, EMPTY, KINDS, draftOf, factsOf, named, outside, worldOf } from './things.js';
 
 const TOOLS = Object.entries(KINDS).filter(([, { tool }]) => tool).map(([kind, { tool }]) => [kind, tool]);
@@ -12,8 +14,11 @@ const AROUND_SEEN = 12;
 /** A line to the program has at most 64 kB. */
 const LONGEST = 60000;
 const ARROWS = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
+/** The draft of a page that was closed before it was started. */
+const KEPT = 'ev3dev-draft';
 const round = (place) => place.map(Math.round);
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+const bare = ({ typed, ...drawn }) => drawn;
 
 export class Editor {
   /** `changed` is called when the editor opens or closes. */
@@ -23,6 +28,7 @@ export class Editor {
     this.folder = null;
     this.build();
     document.addEventListener('keydown', (event) => { if (this.open) this.key(event); }, true);
+    addEventListener('pagehide', () => { if (this.isChanged) keep(KEPT, this.draft); });
   }
 
   build() {
@@ -42,7 +48,7 @@ export class Editor {
     this.file.addEventListener('change', () => this.opened());
     this.saving = button('Save', () => this.save('write'));
     this.text = el('textarea', { class: 'facts', spellcheck: false, autocapitalize: 'off', 'aria-label': 'The world as facts', hidden: true });
-    this.using = button('Use', () => this.use(this.text.value), { class: 'tool text main', title: 'Start the world of this text', hidden: true });
+    this.text.addEventListener('input', () => this.type(this.text.value));
     this.asFacts = button('Facts', () => this.turnFacts(this.text.hidden), { 'aria-pressed': 'false', title: 'The world as a text' });
     $('editor').append(
       el('header', {}, el('h2', { id: 'editor-title' }, 'Edit the world'), el('div', { class: 'actions' }, this.undoing, this.redoing, sign('close', 'Back to the robot', () => this.leave()))),
@@ -51,7 +57,7 @@ export class Editor {
       el('div', { class: 'files' },
         el('label', { for: 'edit-name' }, 'Name'), this.name,
         button('Start', () => this.begin(), { class: 'tool text main', title: 'Start this world: the robot goes to its start, and a running program is stopped' }),
-        this.using, this.asFacts, this.saving, button('Download', () => this.download()), button('Open', () => this.file.click(), { title: 'Open a file of facts and start it' }), button('Empty', () => this.change(EMPTY), { title: 'Begin with nothing' }), this.file),
+        this.asFacts, this.saving, button('Download', () => this.download()), button('Open', () => this.file.click(), { title: 'Open a file of facts and start it' }), button('Empty', () => this.change(EMPTY), { title: 'Begin with nothing' }), this.file),
     );
   }
 
@@ -60,10 +66,11 @@ export class Editor {
   enter(model) {
     this.model = model;
     // Things may have been pushed since then.
-    if (!this.past.length || this.base !== model.world) {
+    if (!this.isChanged || this.base !== model.world) {
       this.name.value = plain(model.name) || 'my_world';
       this.begins(draftOf(model.world));
     }
+    this.again(kept(KEPT));
     this.send('worlds');
     this.turn(true);
     this.render();
@@ -84,9 +91,30 @@ export class Editor {
     this.changed();
   }
 
+  /** A draft of before the page was closed is there by undo, too. */
+  again(draft) {
+    keep(KEPT, null);
+    try {
+      if (!draft || (draft.typed ?? factsOf(draft)) === this.facts) return;
+    } catch {
+      return; // what another page has kept under this name
+    }
+    this.past.unshift(draft);
+    notice('Your last draft was not started. Undo shows it.', { seconds: 8 });
+  }
+
+  get isChanged() {
+    return this.past.length > 0 || this.draft?.typed !== undefined;
+  }
+
+  /** The draft as facts. */
+  get facts() {
+    return this.draft.typed ?? factsOf(this.draft);
+  }
+
   /** Another world; a draft that was not started is there by undo. */
   begins(draft) {
-    if (this.past.length && factsOf(draft) !== factsOf(this.draft)) this.past.push(this.draft);
+    if (this.isChanged && factsOf(draft) !== this.facts) this.past.push(this.draft);
     else this.past = [];
     Object.assign(this, { draft, base: this.model.world, future: [], pending: [], selected: 'around' });
   }
@@ -161,7 +189,8 @@ export class Editor {
     this.pending.push(this.past.length);
     this.past.push(this.draft);
     this.future = [];
-    this.draft = draft;
+    if (this.draft.typed !== undefined) notice('The text of facts was changed, too. Undo shows it.', { seconds: 6 });
+    this.draft = bare(draft);
     this.send(`check ${facts}`);
     this.render();
     return true;
@@ -173,17 +202,25 @@ export class Editor {
     return size <= LONGEST;
   }
 
+  /** What is typed is one step, the last one. */
+  type(facts) {
+    this.future = [];
+    this.draft = facts === factsOf(this.draft) ? bare(this.draft) : { ...this.draft, typed: facts };
+    this.render();
+  }
+
   undo() {
-    if (!this.past.length || this.pending.length) return;
+    if (!this.isChanged || this.pending.length) return;
     this.future.push(this.draft);
-    this.draft = this.past.pop();
+    this.draft = this.draft.typed === undefined ? this.past.pop() : bare(this.draft);
     this.render();
   }
 
   redo() {
     if (!this.future.length || this.pending.length) return;
-    this.past.push(this.draft);
-    this.draft = this.future.pop();
+    const next = this.future.pop();
+    if (next.typed === undefined || !same(bare(next), this.draft)) this.past.push(this.draft);
+    this.draft = next;
     this.render();
   }
 
@@ -196,10 +233,13 @@ export class Editor {
       else this.pending.shift();
     } else if (what === 'begin') {
       if (refused) {
-        notice(line && this.opening ? `Line ${line}: ${why}` : sentence(why), { seconds: 8 });
+        const typed = !this.opening && this.draft.typed !== undefined;
+        notice(line && (this.opening || typed) ? `Line ${line}: ${why}` : sentence(why), { seconds: 8 });
         this.opening = false;
+        if (typed && line) this.choose(line);
       } else if (!this.opening) {
         this.past = [];
+        this.draft = bare(this.draft);
         this.leave();
         notice('The robot stands at the start of this world.', { seconds: 3 });
       }
@@ -240,18 +280,17 @@ export class Editor {
 
   begin() {
     const name = this.named();
-    const facts = factsOf(this.draft);
-    if (name && this.fits(facts)) this.send(`begin ${name} ${facts}`);
+    if (name && this.fits(this.facts)) this.send(`begin ${name} ${this.facts}`);
   }
 
   save(word) {
     const name = this.named();
-    if (name) this.send(`${word} ${name} ${factsOf(this.draft)}`);
+    if (name) this.send(`${word} ${name} ${this.facts}`);
   }
 
   download() {
     const name = this.named();
-    if (name) download(`${name}.pl`, factsOf(this.draft), 'text/plain');
+    if (name) download(`${name}.pl`, this.facts, 'text/plain');
   }
 
   async opened() {
@@ -263,8 +302,8 @@ export class Editor {
     else this.use(facts, file.name.replace(/\.pl$/, ''));
   }
 
-  /** Starts the world of a text; its drawing takes the place of this one. */
-  use(facts, name = this.name.value) {
+  /** Starts the world of a file; its drawing takes the place of this one. */
+  use(facts, name) {
     if (!this.fits(facts)) return;
     this.opening = true;
     this.send(`begin ${plain(name) || 'world'} ${facts}`);
@@ -272,10 +311,19 @@ export class Editor {
 
   /** The text of facts in the place of the list of things, or that again. */
   turnFacts(shown) {
-    this.text.hidden = this.using.hidden = !shown;
+    this.text.hidden = !shown;
     this.list.hidden = shown;
     pressed(this.asFacts, shown);
     this.render();
+  }
+
+  /** A line of the text, which has no numbers beside it. */
+  choose(line) {
+    this.turnFacts(true);
+    const lines = this.facts.split('\n');
+    const from = lines.slice(0, line - 1).join('\n').length + (line > 1 ? 1 : 0);
+    this.text.focus();
+    this.text.setSelectionRange(from, from + (lines[line - 1]?.length ?? 0));
   }
 
   // ---------------- the canvas
@@ -455,14 +503,14 @@ export class Editor {
   render() {
     if (!this.open) return;
     if (!this.thing()) this.selected = 'around';
-    this.undoing.disabled = !this.past.length;
+    this.undoing.disabled = !this.isChanged;
     this.redoing.disabled = !this.future.length;
     for (const [kind, button] of this.tools) pressed(button, this.tool === kind);
     toggle(this.world.canvas, 'adding', this.tool !== null);
     this.said(this.thing());
     this.renderFields();
     this.renderList();
-    if (document.activeElement !== this.text) this.text.value = factsOf(this.draft);
+    if (this.text.value !== this.facts) this.text.value = this.facts;
     const { camera } = this.world;
     this.world.show(this.picture);
     if (!camera.own) {
@@ -472,7 +520,8 @@ export class Editor {
   }
 
   said(thing) {
-    const words = this.tool ? KINDS[this.tool].hint ?? 'Drag it in the world.' : KINDS[thing.kind].words(thing);
+    const words = this.tool ? KINDS[this.tool].hint ?? 'Drag it in the world.'
+      : this.draft.typed === undefined ? KINDS[thing.kind].words(thing) : `Start begins the world of ${this.text.hidden ? 'the text under Facts' : 'this text'}.`;
     text(this.hint, words);
   }
 

@@ -1,7 +1,7 @@
 // The log: commands with their causes, rules, what the program prints,
 // marks, warnings, goals; and a line for goals.
 
-import { $, clock, download, el, goTo, pressed, text, toggle } from './dom.js';
+import { $, clock, download, el, following, goTo, pressed, text, toggle } from './dom.js';
 
 const KINDS = [['command', 'Commands'], ['rule', 'Rules'], ['golog', 'Golog'], ['output', 'Output'], ['goal', 'Goals'], ['mark', 'Marks'], ['warning', 'Warnings']];
 const MOST = 300;
@@ -15,6 +15,7 @@ export class Log {
   constructor(send) {
     this.send = send;
     this.list = $('log');
+    this.follow = following(this.list);
     this.hidden = new Set();
     this.history = [];
     this.next = 1;
@@ -32,6 +33,7 @@ export class Log {
     this.earlier = el('li', { class: 'none begin' }, el('span'), el('span'), el('span', { class: 'text' }, EARLIER));
     this.clear();
     $('log-about').addEventListener('change', () => this.filter());
+    document.addEventListener('ev3dev-time', ({ detail: { t } }) => { if (t === null) this.follow(true); });
     this.list.addEventListener('click', (event) => {
       const box = event.target.closest('li');
       if (box && getSelection().isCollapsed) this.choose(this.rows.find((row) => row.box === box));
@@ -89,7 +91,6 @@ export class Log {
   /** Lines at the end; the list stays where it is if somebody reads above. */
   add(lines) {
     const { list } = this;
-    const atEnd = list.scrollTop + list.clientHeight >= list.scrollHeight - 24;
     this.empty.remove();
     for (const line of lines) {
       const chip = this.chips.get(group(line.kind));
@@ -104,7 +105,7 @@ export class Log {
     const gone = this.rows.splice(0, Math.max(0, this.rows.length - MOST));
     for (const row of gone) row.box.remove();
     if (gone.length && !this.earlier.isConnected) list.prepend(this.earlier);
-    if (atEnd) list.scrollTop = list.scrollHeight;
+    this.follow();
   }
 
   /** The row that a line goes into, as it says the same. */
@@ -156,7 +157,7 @@ export class Log {
 
   filter() {
     for (const row of this.rows) row.box.hidden = !this.passes(row);
-    this.list.scrollTop = this.list.scrollHeight;
+    this.follow(true);
   }
 
   /** A motor or a rule that lines can be chosen by; they stand in the order of their names. */

@@ -3,7 +3,6 @@
 import { $, clock, el, goTo, notice, text, toggle, within } from './dom.js';
 import { Brick } from './brick.js';
 import { Charts } from './charts.js';
-import { Editor } from './editor.js';
 import { Hands } from './controls.js';
 import { Log } from './log.js';
 import { ALL, Model } from './model.js';
@@ -62,13 +61,12 @@ const log = new Log(send);
 const wire = new Wire({ state, frame, reply });
 const hands = new Hands({ send, stop: () => wire.stop() }, world, charts, log, ports);
 const timeline = new Timeline(show);
-const editor = new Editor(send, world, edited);
 /** Those that go back with the timeline, and those that are always of now. */
 const scenes = [ports, brick, program];
 const panels = [hands, log, charts];
 const arranged = new Panels(layout);
-/** Its code comes when it is opened. */
-let reasoning = null;
+/** Their code comes when they are opened. */
+let [editor, reasoning] = [null, null];
 
 // ---------------- the line
 
@@ -91,7 +89,7 @@ function reply(message) {
   if (message.type === 'answer') log.answer(message);
   else if (message.type === 'reads') log.reads(true);
   else if (message.type === 'refused' && ['goal', 'more', 'enough', 'input'].includes(message.what)) log.refused(message.why);
-  else if (!editor.reply(message) && !program.reply(message) && !reasoning?.reply(message)) hands.reply(message);
+  else if (!editor?.reply(message) && !program.reply(message) && !reasoning?.reply(message)) hands.reply(message);
 }
 
 function frame(next) {
@@ -103,8 +101,8 @@ function frame(next) {
   for (const panel of panels) panel.take(model, came);
   timeline.take(model);
   reasoning?.take(model);
-  editor.take(model);
-  if (!timeline.past && !editor.open && !reasoning?.kept) {
+  editor?.take(model);
+  if (!timeline.past && !editor?.open && !reasoning?.kept) {
     for (const scene of scenes) scene.take(model, came);
     world.take(model, came, interval);
   }
@@ -117,13 +115,19 @@ function frame(next) {
 
 /** Another moment of the run, or now again. */
 function show(moment) {
-  if (editor.open) return;
+  if (editor?.open || !moment.frame) return;
   for (const scene of scenes) scene.take(moment, ALL);
   world.show(reasoning?.placed(moment) ?? moment);
 }
 
+const partOf = (file) => import(file).catch(() => {
+  notice('This part of the page cannot be loaded: the program does not answer.', { bad: true });
+  return {};
+});
+
 $('reasoning-open').addEventListener('click', async () => {
-  const { Reasoning } = await import('./reasoning.js');
+  const { Reasoning } = await partOf('./reasoning.js');
+  if (!Reasoning) return;
   world.thoughts = reasoning ??= new Reasoning(send, () => show(timeline.past ?? model));
   reasoning.model = model;
   reasoning.turn(!reasoning.open);
@@ -138,7 +142,10 @@ function edited() {
   }
 }
 
-$('edit').addEventListener('click', () => {
+$('edit').addEventListener('click', async () => {
+  const { Editor } = await partOf('./editor.js');
+  if (!Editor) return;
+  editor ??= new Editor(send, world, edited);
   if (editor.open) editor.leave();
   else if (model.simulated) {
     goTo(null);
@@ -258,7 +265,7 @@ function shown() {
     seen: timeline.kept[0]?.time ?? null,
     active: model.active ?? [],
     reasoning: reasoning?.state ?? null,
-    edits: editor.open ? { draft: editor.draft, selected: editor.thing(), tool: editor.tool, undo: editor.past.length, redo: editor.future.length, waits: editor.pending.length, folder: editor.folder } : null,
+    edits: editor?.open ? { draft: editor.draft, selected: editor.thing(), tool: editor.tool, undo: editor.past.length, redo: editor.future.length, waits: editor.pending.length, facts: editor.facts, folder: editor.folder } : null,
     selected: world.selected === null ? null : world.selected.kind ?? world.selected,
     measured: world.measured?.[1] ? Math.hypot(world.measured[1][0] - world.measured[0][0], world.measured[1][1] - world.measured[0][1]) : null,
     words: world.words ?? '',

@@ -144,7 +144,7 @@ export class Ports {
     this.close();
     if (was === name) return;
     const port = this.model.port(name);
-    const menu = el('div', { class: 'menu port-menu', role: 'group', 'aria-label': `Port ${name}` });
+    const menu = el('div', { class: 'menu popup port-menu', popover: 'manual', role: 'group', 'aria-label': `Port ${name}` });
     const action = (words, act) => {
       const onclick = () => {
         if (typeof act === 'string') this.send(act);
@@ -181,11 +181,12 @@ export class Ports {
 
   place(button, name, menu) {
     attribute(button, 'aria-expanded', true);
-    const row = this.rows.get(name).box;
-    const card = row.closest('.card');
-    card.append(menu);
-    const top = button.getBoundingClientRect().bottom - card.getBoundingClientRect().top + card.scrollTop;
-    menu.style.top = `${within(8, top, card.scrollTop + card.clientHeight - menu.offsetHeight - 8)}px`;
+    const { bottom, right } = button.getBoundingClientRect();
+    button.closest('.card').append(menu);
+    menu.showPopover();
+    // All of it is seen, wherever its port is.
+    menu.style.left = `${Math.max(8, right - menu.offsetWidth) + scrollX}px`;
+    menu.style.top = `${within(8, bottom + 4, innerHeight - menu.offsetHeight - 8) + scrollY}px`;
     this.menu = { name, menu, button };
     menu.querySelector('button').focus();
   }

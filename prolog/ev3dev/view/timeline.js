@@ -13,6 +13,8 @@ const APART = 0.04;
 /** What sensors see is shown at moments so near to a frame. */
 const SEEN_WITHIN = 0.06;
 const STEP = 0.05;
+/** How far keys go. */
+const WAYS = { ArrowLeft: -STEP, ArrowDown: -STEP, ArrowRight: STEP, ArrowUp: STEP, PageDown: -1, PageUp: 1 };
 const KEPT = ['name', 'world', 'spec', 'path', 'grid', 'screen', 'active'];
 
 export class Timeline {
@@ -23,13 +25,22 @@ export class Timeline {
     this.past = null;
     this.kept = [];
     this.slider = $('time-slider');
-    this.slider.addEventListener('input', () => goTo(this.atEnd() ? null : Number(this.slider.value)));
+    this.slider.addEventListener('input', () => this.moved());
+    this.slider.addEventListener('keydown', (event) => {
+      const way = WAYS[event.key];
+      if (!way) return;
+      this.slider.value = Number(this.slider.value) + way;
+      this.moved();
+      event.preventDefault();
+    });
     $('time-live').addEventListener('click', () => goTo(null));
     document.addEventListener('ev3dev-time', (event) => this.go(event.detail.t));
   }
 
-  atEnd() {
-    return Number(this.slider.value) >= Number(this.slider.max) - STEP;
+  /** By a hand: the end is now. */
+  moved() {
+    const { value, max } = this.slider;
+    goTo(Number(value) > Number(max) - STEP / 2 ? null : Number(value));
   }
 
   // ---------------- what is kept
@@ -41,7 +52,7 @@ export class Timeline {
       if (this.past) goTo(null);
     }
     this.keep(model);
-    if (model.frame.new || !model.frame.clock.stands) this.describe();
+    if (model.frame.new || model.time !== this.described) this.describe();
   }
 
   keep(model) {
@@ -111,9 +122,10 @@ export class Timeline {
     const { slider, model, t } = this;
     const last = model.time;
     const { first } = this;
+    this.described = last;
     slider.disabled = !(last - first > 2 * STEP);
     if (Number(slider.min) !== first) slider.min = first;
-    slider.max = last.toFixed(2);
+    slider.max = last;
     slider.value = t ?? last;
     const words = t === null ? `${clock(last)} s` : `${clock(t)} of ${clock(last)} s`;
     text($('time-text'), words);

@@ -2,9 +2,9 @@
 // in picture.js, which part of it in camera.js; here are the frames, and the hands.
 
 import { along } from './canvas.js';
-import { $, attribute, el, num, pressed, text, toggle } from './dom.js';
+import { $, attribute, el, notice, num, pressed, text, toggle } from './dom.js';
 import { Picture, between } from './picture.js';
-import { KINDS, LIGHT, TURN, cm, isThing } from './things.js';
+import { KINDS, LIGHT, TURN, cm, isThing, outside } from './things.js';
 
 export const LAYERS = [
   ['floor', 'Centimeter grid'], ['trail', 'Trail'], ['believed', 'Believed pose'],
@@ -330,7 +330,9 @@ export class World extends Picture {
       const size = (a, b) => Math.abs(a - b);
       const [w, d] = this.moved ? [size(drag.from[0], drag.to[0]), size(drag.from[1], drag.to[1])] : [20, 20];
       const at = this.moved ? [(drag.from[0] + drag.to[0]) / 2, (drag.from[1] + drag.to[1]) / 2] : drag.from;
-      if (w >= 0.5 && d >= 0.5) this.send(`add box ${cm(at[0])} ${cm(at[1])} ${cm(w)} ${cm(d)}${this.pushable ? ` 0 mass ${LIGHT}` : ''}`);
+      const why = outside({ kind: 'box', x: cm(at[0]), y: cm(at[1]) }, this.model.world ?? {});
+      if (why) notice(why, { seconds: 6 });
+      else if (w >= 0.5 && d >= 0.5) this.send(`add box ${cm(at[0])} ${cm(at[1])} ${cm(w)} ${cm(d)}${this.pushable ? ` 0 mass ${LIGHT}` : ''}`);
       this.use('move');
     } else if (drag.kind === 'robot' && this.moved) {
       this.put(drag.at, 'robot');
