@@ -4,9 +4,10 @@ import { Console } from './console.js';
 import { Machine } from './machine.js';
 import { keepProgram, programs } from './programs.js';
 import { fromFragment, toFragment } from './share.js';
-import { Text } from './text.js';
+import { LEAVE, Text } from './text.js';
 import { Tone } from './tone.js';
 import { $, attribute, download, el, notice, pressed, text, toggle } from './view/dom.js';
+import { divider, keep as keepSize, kept as keptSize } from './view/panels.js';
 
 const FIRST = `% A robot that keeps away from things.
 
@@ -25,11 +26,12 @@ drive :-
     drive.
 `;
 const KEY = 'ev3dev playground';
+const DATE = new Intl.DateTimeFormat('en-GB', { day: 'numeric', month: 'short', hour: '2-digit', minute: '2-digit' });
 
 const kept = read();
 const machine = new Machine({ begins, took, runs, heard, ends, worldChanged: keep });
-const console_ = new Console((line) => machine.send(line), (line) => editor.goTo(line));
-const editor = new Text($('text'), { changed: keep, run, words: [] });
+const console_ = new Console((line) => machine.send(line), goToLine, unseen);
+const editor = new Text($('text'), { changed: keep, indented, run, words: [] });
 const tone = new Tone();
 let program = null;
 /** What was said of lines when the program was loaded, and by what the last goal failed. */
@@ -40,6 +42,8 @@ let failed = null;
 let task = '';
 let known = [];
 let former = null;
+/** Whether the way out of the editor was said; and whether the notice is of the output. */
+let [told, isUnseen] = [false, false];
 
 window.ev3dev = { machine, editor, state };
 
@@ -83,7 +87,8 @@ function show({ name: title, text: words, world, task: exercise = '' }, about = 
   editor.text = words;
   former = words;
   task = exercise;
-  for (const id of ['task', 'check']) $(id).hidden = !task;
+  for (const button of document.querySelectorAll('.of-task')) button.hidden = !task;
+  if (!task && document.body.classList.contains('shows-task')) showPart('program');
   if (world) begin(world);
   keep();
   if (own) notice(`${about} Your ${own} is kept: it is in the list under My programs.`.trim(), { seconds: 10, act: ['Back to mine', () => show(before)] });
@@ -146,8 +151,7 @@ function heard(message) {
     found = errors;
     editor.errors(found);
     if (errors.some(({ kind }) => kind === 'error')) {
-      showPart('program');
-      editor.goTo(errors.find(({ kind }) => kind === 'error').line);
+      goToLine(errors.find(({ kind }) => kind === 'error').line);
       console_.say('stop', 'The program was not started: see the lines with a mark.');
     }
     machine.send('program');
@@ -230,12 +234,48 @@ $('copy').addEventListener('click', async () => {
   notice('The link is copied.', { seconds: 3 });
 });
 
-/** On a phone there is room for one of them. */
+/** On a phone there is room for one of them; elsewhere a task lies over the robot. */
 function showPart(part) {
   for (const each of $('tabs').children) pressed(each, each.dataset.shows === part);
-  toggle(document.body, 'shows-robot', part === 'robot');
+  for (const name of ['robot', 'task']) toggle(document.body, `shows-${name}`, part === name);
+  attribute($('task'), 'aria-expanded', part === 'task');
+  if (isUnseen) notice('');
+  isUnseen = false;
 }
-for (const tab of $('tabs').children) tab.addEventListener('click', () => showPart(tab.dataset.shows));
+
+/** How wide the program is; null as at first. */
+const WIDTH = 'ev3dev playground width';
+function widen(size) {
+  const { style } = document.documentElement;
+  if (size > 0) style.setProperty('--program', `${size}px`);
+  else style.removeProperty('--program');
+}
+widen(keptSize(WIDTH));
+$('bench').append(divider('Width of the program', {
+  get: () => $('program').offsetWidth, least: 330, most: () => innerWidth - 440, across: true,
+  set: (size) => {
+    widen(size);
+    keepSize(WIDTH, size);
+  },
+}));
+
+function goToLine(line) {
+  if (!$('text').clientHeight) showPart('program');
+  editor.goTo(line);
+}
+
+/** What has failed is said where one looks, until one looks there or goes on. */
+function unseen(words) {
+  isUnseen = true;
+  notice(words.length > 200 ? `${words.slice(0, 200)} …` : words, { bad: true, act: ['Output', () => showPart('program')] });
+}
+
+/** For those who want to leave the editor by Tab. */
+function indented() {
+  if (!told) notice(LEAVE, { seconds: 5 });
+  told = true;
+}
+for (const tab of $('tabs').children) tab.addEventListener('click', () => (tab.dataset.shows === 'task' ? showTask() : showPart(tab.dataset.shows)));
 
 const stars = (points, of) => '★'.repeat(Math.round(3 * points / of)).padEnd(3, '☆');
 
@@ -265,7 +305,7 @@ function choose(found) {
 function mine() {
   const all = programs();
   $('mine').hidden = !all.length;
-  $('mine').replaceChildren(...all.map(({ name: title }) => el('option', { value: `mine:${title}` }, title)));
+  $('mine').replaceChildren(...all.map(({ name: title, kept: at }) => el('option', { value: `mine:${title}` }, at ? `${title}, ${DATE.format(at)}` : title)));
 }
 
 // ----------------------------------------------------------------- the course
@@ -274,9 +314,15 @@ function showTask() {
   const found = known.find(({ name: title }) => title === task);
   if (!found) return;
   // It was made of the pack's own files when the page was built.
-  $('tasked-text').innerHTML = `${found.task}<p>Here <b>Check</b> does what <code>swipl ev3dev try</code> does.</p>`;
-  $('tasked').showModal();
-  $('tasked').scrollTop = 0;
+  $('tasked-text').innerHTML = found.task;
+  showPart('task');
+  $('tasked-text').scrollTop = 0;
+  $('tasked-label').focus();
+}
+
+function closeTask() {
+  showPart('program');
+  $('task').focus();
 }
 
 /** A program that still runs is ended by it. */
@@ -306,7 +352,8 @@ function film() {
   }, 40);
 }
 
-$('task').addEventListener('click', showTask);
+$('task').addEventListener('click', () => (document.body.classList.contains('shows-task') ? closeTask() : showTask()));
+$('task-close').addEventListener('click', closeTask);
 $('check').addEventListener('click', check);
 $('film').addEventListener('click', film);
 

@@ -1,6 +1,6 @@
 // The output of the program, the messages of Prolog, and the line for queries.
 
-import { $, el, text } from './view/dom.js';
+import { $, el, following, text } from './view/dom.js';
 
 /** How many rows and letters are kept. */
 const MOST = { rows: 1000, letters: 200_000 };
@@ -8,13 +8,13 @@ const KEY = 'ev3dev playground queries';
 /** An answer that is longer is folded. */
 const LONG = 300;
 const READS = { term: 'a term and a full stop', line: 'a line', clauses: 'clauses, and then an empty line' };
+const FAILS = new Set(['warning', 'error', 'stop']);
 const SHOWN = new Set(['output', 'goal', 'answer', 'warning', 'error', 'stop', 'mark']);
 
 export class Console {
-  /** `goTo` shows a line of the program. */
-  constructor(send, goTo) {
-    this.send = send;
-    this.goTo = goTo;
+  /** `goTo` shows a line of the program; `unseen` gets what must be seen while this is not displayed. */
+  constructor(send, goTo, unseen) {
+    Object.assign(this, { send, goTo, unseen });
     this.list = $('said');
     this.input = $('query-text');
     this.history = read();
@@ -26,8 +26,7 @@ export class Console {
     this.newest = -1;
     this.line = null;
     this.letters = 0;
-    this.atEnd = true;
-    this.list.addEventListener('scroll', () => { this.atEnd = this.list.scrollTop + this.list.clientHeight >= this.list.scrollHeight - 24; });
+    this.follow = following(this.list);
     $('query').addEventListener('submit', (event) => {
       event.preventDefault();
       this.ask(this.reading ? this.input.value : this.input.value.trim());
@@ -40,7 +39,8 @@ export class Console {
 
   clear() {
     this.list.replaceChildren();
-    [this.letters, this.atEnd] = [0, true];
+    this.letters = 0;
+    this.follow(true);
   }
 
   /** Lines of the log of a frame. */
@@ -71,8 +71,10 @@ export class Console {
       this.letters -= list.firstChild.textContent.length;
       list.firstChild.remove();
     }
-    if (this.atEnd) list.scrollTop = list.scrollHeight;
+    this.follow();
     if (entries[entries.length - 1].kind === 'error' && this.line) this.was(this.line);
+    const failed = entries.filter(({ kind, text: words }) => FAILS.has(kind) || words === 'false.').map(({ text: words }) => words);
+    if (failed.length && !list.clientHeight) this.unseen(failed.slice(-2).join('\n'));
   }
 
   row(kind, words) {
@@ -116,6 +118,7 @@ export class Console {
     text($('query-hint'), what ? `The program reads: type ${READS[what]}.` : '');
     if (what) {
       this.input.focus();
+      if (!this.list.clientHeight) this.unseen($('query-hint').textContent);
       this.nextPasted();
     }
   }

@@ -25,9 +25,28 @@ for (const [name, bytes] of Object.entries(folder(path.join(home, 'prolog/ev3dev
 fs.copyFileSync(here('wire.js'), path.join(to, 'view/wire.js'));
 for (const name of ['index.html', 'bench.css', 'patience.js']) fs.copyFileSync(here(name), path.join(to, name));
 fs.copyFileSync(path.join(modules, 'words.json'), path.join(to, 'words.json'));
+
+/** A task as it is for the page: what one types in a shell, buttons do here. */
+function inPage(name, task) {
+  const told = [
+    [/```\nswipl ev3dev sim [^\n]*\n\?- \[skeleton\]\.\n\?- start\.\n```/g, 'Press **Run**.'],
+    [/```\nswipl ev3dev sim [^\n]*\n\?- \[skeleton\]\.\n/g, 'Press **Run**, then **Stop**: now the program is loaded. Ask this below it:\n\n```\n'],
+    [/```\nswipl ev3dev try [^\n]*\n```/g, 'Press **Check**.'],
+    [/\n[^\n]*`swipl ev3dev mark [^`]*`\.?\n/g, '\n'],
+    [/Load the skeleton/g, 'Press **Run**, which loads the skeleton,'],
+    [/`try`/g, '**Check**'],
+    [/Ctrl-C/g, '**Stop**'],
+    [/\[([^\]]*)\]\([^)]*\.md\)/g, '$1'],
+  ];
+  const words = told.reduce((text, [from, to]) => text.replace(from, to), task);
+  const left = /.*(?:swipl|\[skeleton\]|Ctrl).*/.exec(words);
+  if (left) throw new Error(`The task of ${name} speaks of a shell: ${left}`);
+  return words;
+}
+
 // A task is a part of the pack, and becomes HTML here.
 const examples = JSON.parse(fs.readFileSync(path.join(modules, 'examples.json'), 'utf8'));
-for (const each of examples) if (each.task) each.task = marked.parse(each.task);
+for (const each of examples) if (each.task) each.task = marked.parse(inPage(each.name, each.task));
 fs.writeFileSync(path.join(to, 'examples.json'), JSON.stringify(examples));
 fs.copyFileSync(locateFile('swipl-web.js'), path.join(to, 'swipl-web.js'));
 

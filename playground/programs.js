@@ -12,7 +12,7 @@ function read() {
   }
 }
 
-/** @returns {object[]} the newest first: each has name, text, world, task */
+/** @returns {object[]} the newest first: each has name, text, world, task, and when it was kept */
 export const programs = () => read();
 
 /** Keeps a program under its name. If another one has it, which is not its `former` text, the name
@@ -24,7 +24,7 @@ export function keepProgram(program, former) {
   const bare = program.name.replace(/\.pl$/, '');
   let { name } = program;
   for (let n = 2; all.some((each) => each.name === name && each.text !== former); n += 1) name = `${bare}_${n}.pl`;
-  all = [{ ...program, name }, ...all.filter((each) => each.name !== name)].slice(0, MOST);
+  all = [{ ...program, name, kept: Date.now() }, ...all.filter((each) => each.name !== name)].slice(0, MOST);
   while (all.length) {
     try {
       localStorage.setItem(KEY, JSON.stringify(all));

@@ -1,7 +1,8 @@
 // The editor of the program.
 
-import { autocompletion } from '@codemirror/autocomplete';
-import { HighlightStyle, syntaxHighlighting } from '@codemirror/language';
+import { acceptCompletion, autocompletion, completionStatus, selectedCompletionIndex, setSelectedCompletion } from '@codemirror/autocomplete';
+import { indentLess, indentMore } from '@codemirror/commands';
+import { HighlightStyle, indentUnit, syntaxHighlighting } from '@codemirror/language';
 import { lintGutter, setDiagnostics } from '@codemirror/lint';
 import { EditorState, StateEffect, StateField } from '@codemirror/state';
 import { Decoration, EditorView, hoverTooltip, keymap } from '@codemirror/view';
@@ -40,9 +41,19 @@ const marked = StateField.define({
   provide: (field) => EditorView.decorations.from(field),
 });
 
+export const LEAVE = 'Tab indents here. Escape, then Tab, goes on to the next control.';
+
+/** Takes what is chosen in the list of completions, or the first one. */
+function complete(view) {
+  if (completionStatus(view.state) !== 'active') return false;
+  if (selectedCompletionIndex(view.state) === null) view.dispatch({ effects: setSelectedCompletion(0) });
+  return acceptCompletion(view);
+}
+
 export class Text {
-  /** `changed` is called after each change; `words` are the predicates to offer, by name. */
-  constructor(parent, { changed, run, words }) {
+  /** `changed` is called after each change, `indented` when Tab has done so; `words` are the
+      predicates to offer, by name. */
+  constructor(parent, { changed, indented, run, words }) {
     this.words = words;
     this.key = '';
     const offered = (context) => {
@@ -70,11 +81,15 @@ export class Text {
     this.view = new EditorView({
       parent,
       state: EditorState.create({ extensions: [
-        keymap.of([{ key: 'Mod-Enter', run: () => { run(); return true; } }]),
+        // Enter makes a new line, unless the arrow keys have chosen a completion. Escape, then Tab, leaves the editor.
+        keymap.of([
+          { key: 'Mod-Enter', run: () => { run(); return true; } },
+          { key: 'Tab', run: (view) => complete(view) || (indented(), indentMore(view)), shift: indentLess },
+        ]),
         basicSetup, prolog(), syntaxHighlighting(colors), look, marked, lintGutter(), about,
-        autocompletion({ override: [offered], activateOnTyping: true, defaultKeymap: true }),
-        EditorState.tabSize.of(4),
-        EditorView.contentAttributes.of({ 'aria-label': 'The program' }),
+        autocompletion({ override: [offered], activateOnTyping: true, defaultKeymap: true, selectOnOpen: false, interactionDelay: 0 }),
+        EditorState.tabSize.of(4), indentUnit.of('    '),
+        EditorView.contentAttributes.of({ 'aria-label': 'The program', 'aria-description': LEAVE }),
         EditorView.updateListener.of((update) => { if (update.docChanged) changed(); }),
       ] }),
     });

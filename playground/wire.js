@@ -1,6 +1,11 @@
 // The line of the live view to the program, in the playground: the page around it has a worker in
 // which Prolog runs, see bench.js. In the place of view/wire.js, with the same members.
 
+// Its address alone has no Prolog: the page around it is meant.
+if (window.parent === window) {
+  location.replace('../');
+  await new Promise(() => {});
+}
 const { machine } = window.parent.ev3dev;
 
 // The text of the program is beside the view.

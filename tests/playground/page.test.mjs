@@ -509,10 +509,15 @@ describe('the course', () => {
 
   test('is a link: the task, the points of a try, and the worst run as a film', async () => {
     const page = await visit({ fragment: '#task=01' });
-    await isOpen(page, '#tasked');
+    await page.waitForSelector('#tasked', { visible: true });
     assert.match(await page.$eval('#tasked h1', (title) => title.textContent), /First moves/);
-    await page.click('#tasked .main');
+    // One reads it beside the program.
+    const [task, text] = await page.$$eval('#tasked, #text', (all) => all.map((box) => box.getBoundingClientRect().toJSON()));
+    assert.ok(Math.min(task.right, text.right) <= Math.max(task.left, text.left), 'it covers no program');
+    assert.deepEqual(await violations(page), []);
     assert.equal((await state(page)).text, exercise('skeleton'));
+    await page.click('#task');
+    await page.waitForSelector('#tasked', { hidden: true });
     await page.click('#check');
     await isOpen(page, '#checked');
     assert.match(await page.$eval('#checked-points', (line) => line.textContent), /☆☆☆ 0 of 10 points/);
@@ -543,15 +548,24 @@ describe('the course', () => {
     await page.end();
   });
 
+  test('speaks of buttons, and not of a shell', async () => {
+    const tasks = (await (await fetch(`${url}examples.json`)).json()).filter((each) => each.task);
+    assert.equal(tasks.length, fs.readdirSync(path.join(home, 'course')).length);
+    for (const { name, task } of tasks) {
+      assert.doesNotMatch(task, /swipl|Ctrl|\[skeleton\]|href=/, name);
+      assert.match(task, /<strong>Check<\/strong>/, name);
+    }
+  });
+
   test('has the world of its exercise again after a run', async () => {
     const page = await visit({ fragment: '#task=4' });
-    await isOpen(page, '#tasked');
-    await page.click('#tasked .main');
+    await page.waitForSelector('#tasked', { visible: true });
     const world = () => page.evaluate(() => JSON.stringify(document.getElementById('robot').contentWindow.ev3view.state().world));
     await until(async () => /"line"/.test(await world()), 'the line');
     const before = await world();
     await run(page, `${HEAD}start :- ${ROBOT}, go_cm(20, 10).\n`);
     await until(async () => (await robot(page)).time > 0.5, 'a program that moves');
+    await page.waitForSelector('#tasked', { hidden: true });
     await idle(page);
     await page.evaluate(() => document.getElementById('robot').contentDocument.getElementById('reset').click());
     await until(async () => (await robot(page)).time === 0, 'the start');
@@ -608,6 +622,65 @@ describe('a program of a pupil', () => {
   });
 });
 
+describe('the editor', () => {
+  let page;
+  before(async () => { page = await visit(); });
+  after(() => page.end());
+  const offered = () => page.waitForSelector('.cm-tooltip-autocomplete li');
+  const text = async () => (await state(page)).text;
+
+  test('makes a new line by Enter, and completes by Tab or what the arrow keys have chosen', async () => {
+    await type(page, '');
+    await page.click('.cm-content');
+    await page.keyboard.type('nl');
+    await offered();
+    await page.keyboard.press('Enter');
+    await page.keyboard.type('us_di');
+    await offered();
+    await page.keyboard.press('Tab');
+    await until(async () => await text() === 'nl\nus_dist_cm', 'the first completion');
+    await page.keyboard.press('Enter');
+    await page.keyboard.type('us_di');
+    await offered();
+    await page.keyboard.press('ArrowDown');
+    await page.keyboard.press('ArrowDown');
+    await page.keyboard.press('Enter');
+    await until(async () => await text() === 'nl\nus_dist_cm\nus_dist_inches', 'the second completion');
+  });
+
+  test('indents by Tab, and is left by Escape and Tab', async () => {
+    await type(page, 'x.');
+    await page.click('.cm-content');
+    await page.keyboard.press('Tab');
+    assert.equal(await text(), '    x.');
+    assert.match(await page.$eval('#notice-text', (box) => box.textContent), /Escape, then Tab/);
+    await page.keyboard.down('Shift');
+    await page.keyboard.press('Tab');
+    await page.keyboard.up('Shift');
+    assert.equal(await text(), 'x.');
+    const inEditor = () => page.evaluate(() => Boolean(document.activeElement.closest('#text')));
+    assert.ok(await inEditor());
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Tab');
+    assert.equal(await inEditor(), false);
+    assert.equal(await text(), 'x.');
+  });
+
+  test('is as wide as a hand makes it, also the next time', async () => {
+    const width = () => page.$eval('#program', (card) => card.offsetWidth);
+    const before = await width();
+    await page.focus('#bench > .divider');
+    await page.keyboard.press('ArrowLeft');
+    assert.equal(await width(), before - 16);
+    await page.reload();
+    await ready(page);
+    assert.equal(await width(), before - 16);
+    await page.focus('#bench > .divider');
+    await page.keyboard.press('End');
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0);
+  });
+});
+
 describe('nothing is lost', () => {
   const mine = (page) => page.evaluate(() => {
     document.getElementById('examples').dispatchEvent(new Event('focus'));
@@ -620,6 +693,7 @@ describe('nothing is lost', () => {
     await type(page, '% one\n');
     await page.select('#examples', 'square');
     assert.deepEqual(await mine(page), ['mine:my_robot.pl']);
+    assert.match(await page.$eval('#mine option', (option) => option.textContent), /^my_robot\.pl, \d+ \w+,? \d\d:\d\d$/);
     await type(page, '% two\n');
     await page.select('#examples', 'square');
     assert.deepEqual(await mine(page), ['mine:square.pl', 'mine:my_robot.pl']);
@@ -658,6 +732,33 @@ describe('a phone', () => {
     await until(async () => page.$eval('#robot', (frame) => getComputedStyle(frame).visibility === 'visible' && frame.clientWidth > 300), 'the robot, which Run shows');
     assert.ok((await wide()).every((width) => width <= 390));
     await page.end();
+  });
+
+  test('says in front of the robot what has failed and what is read', async () => {
+    const page = await visit({ width: 390, height: 780 });
+    const notice = () => page.$eval('#notice', (box) => (box.hidden ? '' : box.querySelector('p').textContent));
+    const shown = (part) => until(() => page.$eval(`#tabs [data-shows=${part}]`, (tab) => tab.ariaPressed === 'true'), part);
+    for (const [program, words] of [[`go_cm(500, 5)`, /500 %.*\nfalse\.$/], ['atom_length(1 + 2, _)', /1\s*\+\s*2/], ['fail', /false/], ['read(_)', /The program reads/]]) {
+      await run(page, `${HEAD}start :- ${ROBOT}, ${program}.\n`);
+      await shown('robot');
+      await until(async () => words.test(await notice()), `${words}`);
+      await page.click('#notice-act');
+      await shown('program');
+      assert.equal(await notice(), '');
+    }
+    await page.click('#run');
+    await idle(page);
+    await page.end();
+  });
+});
+
+describe('the frame of the robot', () => {
+  test('shows the whole page by its own address', async () => {
+    const page = patient(await browser.newPage());
+    await page.goto(`${url}view/index.html`);
+    await until(() => page.evaluate(() => window.ev3dev?.state().open), 'the playground');
+    assert.equal(page.url(), url);
+    await page.close();
   });
 });
 
