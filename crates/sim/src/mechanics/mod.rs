@@ -158,7 +158,7 @@ impl Limits {
     }
 }
 
-/// The name of a contact with something that stands fast.
+/// The name of a contact with something that does not move.
 fn of_wall(contact: &Contact) -> Key {
     Key([contact.id.0, 0, contact.corner])
 }

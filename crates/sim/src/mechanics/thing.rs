@@ -22,7 +22,7 @@ pub struct Thing {
 }
 
 impl Thing {
-    /// `None` for an item that stands fast.
+    /// `None` for an item that does not move.
     pub(crate) fn new(id: ItemId, item: &Item) -> Option<Thing> {
         let (pose, hull, traits) = item.movable()?;
         let mass = traits.mass?;

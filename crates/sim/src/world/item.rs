@@ -242,12 +242,12 @@ impl Item {
         Item::Wall { from, to, thickness: 1.0 }
     }
 
-    /// A box that stands fast.
+    /// A box that does not move.
     pub fn boxed(pose: Pose, width: f64, depth: f64) -> Item {
         Item::Box { pose, width, depth, traits: Traits::default() }
     }
 
-    /// A pillar that stands fast.
+    /// A pillar that does not move.
     pub fn circle(center: Point, radius: f64) -> Item {
         Item::Circle { center, radius, traits: Traits::default() }
     }

@@ -53,7 +53,7 @@ pub(crate) struct Scene {
     next_id: u32,
 }
 
-/// The obstacle that an item is, if it stands fast. The scene has no obstacles that move.
+/// The obstacle that an item is, if it does not move. The scene has no obstacles that move.
 fn fixed(id: ItemId, item: &Item) -> Option<Obstacle> {
     if item.movable().is_some() { None } else { Obstacle::new(id, item) }
 }

@@ -24,7 +24,7 @@ const SENSOR_HEIGHT: f64 = 5.0;
 /// The properties of a box or circle. With a mass it is a thing that robots push.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Traits {
-    /// In kg, from 0.005 to 100; `None` for what stands fast.
+    /// In kg, from 0.005 to 100; `None` for what does not move.
     pub mass: Option<f64>,
     /// Friction on the floor as a share of the weight, from 0 to 2.
     pub friction: Option<f64>,
@@ -73,7 +73,7 @@ impl Traits {
             ),
             (
                 self.mass.is_some() || !moves_only,
-                "needs mass(Kg), too: without a mass it stands fast",
+                "needs mass(Kg), too: without a mass it does not move",
             ),
             (
                 self.mass.is_none() || least >= SMALLEST,

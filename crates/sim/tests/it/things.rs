@@ -305,7 +305,7 @@ fn things_stand_in_nothing() {
     assert!(desk.0.place(Pose::new(30.0, 0.0, 0.0)).is_err());
     assert!(desk.0.remove_item(id) && desk.0.things().is_empty());
     assert!(desk.0.place(Pose::new(30.0, 0.0, 0.0)).is_ok());
-    assert!(!desk.0.throw(ItemId(2), [1.0, 0.0, 0.0]), "what stands fast is not thrown");
+    assert!(!desk.0.throw(ItemId(2), [1.0, 0.0, 0.0]), "what does not move is not thrown");
 }
 
 #[test]
