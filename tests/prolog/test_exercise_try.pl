@@ -109,7 +109,8 @@ test(it_says, [forall(( says(What, Lines, Said), can_be_said(What) ))]) :-
     tries(Lines, Text),
     ( like(Text, Said) -> true ; throw(What-Text) ).
 
-% What 7.2.3 does not tell: the values of a goal that failed, and the goals on a full stack.
+% 7.2.3 says neither the values of a goal that failed nor the goals on a full
+% stack.
 can_be_said(_) :-
     current_prolog_flag(version, Version),
     Version >= 80000,
