@@ -26,6 +26,7 @@ drive :-
 let browser;
 let server;
 let url;
+process.on('exit', () => server?.kill('SIGKILL'));
 
 async function freePort() {
   const probe = net.createServer();

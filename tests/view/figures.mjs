@@ -1,7 +1,7 @@
 // The delays from a program to the page and back; printed, not
 // judged: wall time depends on what else the machine does.
 
-import { Session, browse, open, shows, state } from './session.mjs';
+import { Session, browse, open, share, shows, state } from './session.mjs';
 
 const TIMES = 30;
 const session = await Session.start('sim_start(room)', 'set_robot(5.6, 10.6, outB, outC)');
@@ -39,14 +39,27 @@ for (let i = 0; i < TIMES; i += 1) {
 row('from a motor\'s start to its being seen', starts);
 row('from STOP to its effect being seen', stops);
 
+/** Frames of a second, and what each costs the page. */
+async function drawn(what, of) {
+  const [before, begin] = [await of.metrics(), await state(of)];
+  await new Promise((resolve) => { setTimeout(resolve, 5000); });
+  const [after, end] = [await of.metrics(), await state(of)];
+  const frames = end.frames - begin.frames;
+  console.log(`${what}: ${(frames / (after.Timestamp - before.Timestamp)).toFixed(1)} frames a second; `
+    + `the page takes ${(((after.TaskDuration - before.TaskDuration) * 1000) / frames).toFixed(1)} ms for each`);
+}
+
+/** Prolog and the browser together, while nothing changes. */
+const idle = [session.prolog.pid, browser.process().pid];
+console.log(`a page at the prompt: ${await share(idle, 20)}`);
+await page.click('#pause');
+await shows(page, (s) => s.clock.paused, 'a pause');
+console.log(`a page that pauses: ${await share(idle, 20)}`);
+await page.click('#pause');
+
 session.type('repeat, go(20), wait(1), turn(20, 90), fail');
 await shows(page, (s) => s.program.state === 'running', 'a program');
-const [before, begin] = [await page.metrics(), await state(page)];
-await new Promise((resolve) => { setTimeout(resolve, 5000); });
-const [after, end] = [await page.metrics(), await state(page)];
-const frames = end.frames - begin.frames;
-console.log(`${(frames / (after.Timestamp - before.Timestamp)).toFixed(1)} frames a second; `
-  + `the page takes ${(((after.TaskDuration - before.TaskDuration) * 1000) / frames).toFixed(1)} ms for each`);
+await drawn('a robot that drives', page);
 
 // Six charts on a screen, each of two series, of the last 20 s and then of all.
 const series = ['outA', 'outB', 'outC'].flatMap((port) => ['position', 'speed', 'duty'].map((quality) => `${port}.${quality}`)).concat(['in1.value0', 'in2.value0', 'in3.value0']);
@@ -68,5 +81,14 @@ for (const [words, span] of [['20 s', 1], ['all', 3]]) {
   }
   console.log(`six charts of ${words}, ${(await state(page)).samples} samples: script of a frame, median ${median(spent).toFixed(1)} ms, worst ${worst(spent).toFixed(1)} ms`);
 }
-await browser.close();
+await page.close();
 await session.end();
+
+const many = await Session.start('findall(box(X, Y, 2, 2), ( between(1, 100, I), X is 10*I, between(1, 100, J), Y is 10*J ), Boxes), sim_start([bounds(0, 0, 1100, 1100), start(1055, 55, 0)|Boxes])', 'set_robot(5.6, 10.6, outB, outC)');
+const crowded = await open(browser, await many.view());
+many.type('repeat, go(20), wait(1), go(-20), wait(1), fail');
+await shows(crowded, (s) => s.program.state === 'running', 'a program');
+await drawn('10 000 boxes', crowded);
+await browser.close();
+many.prolog.kill();             // its program does not end
+await many.ended;

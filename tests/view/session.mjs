@@ -1,6 +1,7 @@
 // A Prolog session with the view, and the browser that looks at it.
 
 import { spawn } from 'node:child_process';
+import fs from 'node:fs';
 import net from 'node:net';
 import path from 'node:path';
 import { createRequire } from 'node:module';
@@ -97,10 +98,21 @@ export class Session {
 /** Else it is Chromium. */
 export const isFirefox = Boolean(process.env.FIREFOX);
 
+/** By a signal, as of somebody's time limit, all ends. puppeteer itself would close the browser
+    alone, and what is asked of that next fails with "Target closed". */
+const SIGNALS = { SIGHUP: 1, SIGINT: 2, SIGTERM: 15 };
+for (const [name, number] of Object.entries(SIGNALS)) {
+  process.on(name, () => {
+    console.error(`ended by ${name}`);
+    process.exit(128 + number);
+  });
+}
+const unheard = Object.fromEntries(Object.keys(SIGNALS).map((name) => [`handle${name}`, false]));
+
 /** The colors matter to Firefox only: WebDriver BiDi cannot say which one page has. */
 export async function browse(scheme = 'light') {
   // puppeteer's own limits are 30 s to start, 180 s for an answer
-  const patience = { timeout: GUARD, protocolTimeout: GUARD };
+  const patience = { timeout: GUARD, protocolTimeout: GUARD, ...unheard };
   if (isFirefox) return puppeteer.launch({ ...patience, browser: 'firefox', executablePath: process.env.FIREFOX, headless: true, extraPrefsFirefox: { 'layout.css.prefers-color-scheme.content-override': scheme === 'light' ? 1 : 0 } });
   return puppeteer.launch({
     ...patience, executablePath: process.env.CHROMIUM, headless: true,
@@ -146,6 +158,32 @@ function comesLate(time) {
 /** Undefined while the page's modules have not run. */
 export const state = (page) => page.evaluate(() => window.ev3view?.state());
 
+/** The processor time of some processes and of all that these have started, in seconds; a tick of
+    Linux is 10 ms. */
+function spent(roots) {
+  const all = fs.readdirSync('/proc').filter((name) => /^\d+$/.test(name)).flatMap((pid) => {
+    try {
+      const fields = fs.readFileSync(`/proc/${pid}/stat`, 'utf8').replace(/.*\)/s, '').trim().split(' ');
+      return [{ pid: Number(pid), parent: Number(fields[1]), time: (Number(fields[11]) + Number(fields[12])) / 100 }];
+    } catch {
+      return []; // it has ended
+    }
+  });
+  const ours = new Set(roots);
+  for (let size = 0; size < ours.size;) {
+    size = ours.size;
+    for (const { pid, parent } of all) if (ours.has(parent)) ours.add(pid);
+  }
+  return all.reduce((sum, { pid, time }) => sum + (ours.has(pid) ? time : 0), 0);
+}
+
+/** What share of a core processes take in so many seconds, in words. */
+export async function share(roots, seconds) {
+  const [before, begin] = [spent(roots), performance.now()];
+  await new Promise((resolve) => { setTimeout(resolve, 1000 * seconds); });
+  return `${((100 * (spent(roots) - before)) / ((performance.now() - begin) / 1000)).toFixed(1)} % of a core`;
+}
+
 /** Waits until the page's state satisfies a test; answers that state. */
 export async function shows(page, test, what) {
   let last = null;
@@ -176,7 +214,7 @@ export async function violations(page) {
 
 let axeText = null;
 function axeSource() {
-  axeText ??= require('node:fs').readFileSync(axePath, 'utf8');
+  axeText ??= fs.readFileSync(axePath, 'utf8');
   return axeText;
 }
 
