@@ -275,6 +275,7 @@ function indented() {
   if (!told) notice(LEAVE, { seconds: 5 });
   told = true;
 }
+
 for (const tab of $('tabs').children) tab.addEventListener('click', () => (tab.dataset.shows === 'task' ? showTask() : showPart(tab.dataset.shows)));
 
 const stars = (points, of) => '★'.repeat(Math.round(3 * points / of)).padEnd(3, '☆');

@@ -8,7 +8,7 @@ const KEY = 'ev3dev playground queries';
 /** An answer that is longer is folded. */
 const LONG = 300;
 const READS = { term: 'a term and a full stop', line: 'a line', clauses: 'clauses, and then an empty line' };
-const FAILS = new Set(['warning', 'error', 'stop']);
+const FAILS = new Set(['warning', 'error']);
 const SHOWN = new Set(['output', 'goal', 'answer', 'warning', 'error', 'stop', 'mark']);
 
 export class Console {

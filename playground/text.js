@@ -78,13 +78,17 @@ export class Text {
         return { dom };
       } };
     });
+    const indent = (view) => {
+      indented();
+      return indentMore(view);
+    };
     this.view = new EditorView({
       parent,
       state: EditorState.create({ extensions: [
         // Enter makes a new line, unless the arrow keys have chosen a completion. Escape, then Tab, leaves the editor.
         keymap.of([
           { key: 'Mod-Enter', run: () => { run(); return true; } },
-          { key: 'Tab', run: (view) => complete(view) || (indented(), indentMore(view)), shift: indentLess },
+          { key: 'Tab', run: (view) => complete(view) || indent(view), shift: indentLess },
         ]),
         basicSetup, prolog(), syntaxHighlighting(colors), look, marked, lintGutter(), about,
         autocompletion({ override: [offered], activateOnTyping: true, defaultKeymap: true, selectOnOpen: false, interactionDelay: 0 }),

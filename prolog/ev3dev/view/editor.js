@@ -95,7 +95,8 @@ export class Editor {
   again(draft) {
     keep(KEPT, null);
     try {
-      if (!draft || (draft.typed ?? factsOf(draft)) === this.facts) return;
+      const facts = draft && factsOf(draft);
+      if (!draft || (draft.typed ?? facts) === this.facts) return;
     } catch {
       return; // what another page has kept under this name
     }
@@ -260,7 +261,8 @@ export class Editor {
     const [to] = this.pending;
     this.ignored = this.pending.length - 1;
     this.pending = [];
-    this.draft = this.past[to];
+    const { typed } = this.draft;
+    this.draft = typed === undefined ? this.past[to] : { ...this.past[to], typed };
     this.past.length = to;
     if (!this.thing()) this.selected = 'around';
     notice(sentence(why), { seconds: 6 });
