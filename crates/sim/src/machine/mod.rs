@@ -48,6 +48,9 @@ use ev3_os::linux::Errno;
 use std::sync::Arc;
 use std::time::Duration;
 
+/// What is wrong with what stands beyond the walls of the bounds.
+const OUTSIDE: &str = "is outside of the world";
+
 /// How faithful a run is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
@@ -261,6 +264,10 @@ impl Machine {
         if robots.any(|other| other.overlaps(self.robot.hull, pose)) {
             return Err(robot("is inside another robot".to_owned()).in_part(Part::Start));
         }
+        if self.is_outside(pose) {
+            let error = robot(OUTSIDE.to_owned());
+            return Err(error.in_part(Part::Start).in_part(Part::Bounds));
+        }
         let mut things = self.thing_obstacles.iter();
         let thing = things.find(|thing| thing.overlaps(self.robot.hull, pose));
         let fixed = self.scene.overlap(self.robot.hull, pose);
@@ -270,11 +277,12 @@ impl Machine {
             let error = robot(format!("is inside {}", self.name_of(id)));
             return Err(error.in_part(Part::Start).in_part(part));
         }
-        if self.scene.bounds.is_some_and(|bounds| !bounds.contain([pose.x, pose.y])) {
-            let error = robot("is outside of the world".to_owned());
-            return Err(error.in_part(Part::Start).in_part(Part::Bounds));
-        }
         Ok(())
+    }
+
+    /// Whether a place is not between the walls of the world.
+    fn is_outside(&self, pose: &Pose) -> bool {
+        self.scene.bounds.is_some_and(|bounds| !bounds.contain([pose.x, pose.y]))
     }
 
     /// Holds down these buttons of a remote control on a channel from 1 to 4, and no others, until

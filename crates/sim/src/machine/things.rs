@@ -2,7 +2,7 @@
 use crate::brick::port::Port;
 use crate::machine::grip::Grip;
 use crate::machine::room::Room;
-use crate::machine::{Machine, crowd};
+use crate::machine::{Machine, OUTSIDE, crowd};
 use crate::mechanics::thing::Thing;
 use crate::world::obstacle::Obstacle;
 use crate::world::{Hull, Item, ItemId, Part, SpecError};
@@ -181,6 +181,9 @@ impl Machine {
         let obstacle = thing.obstacle();
         if let Some(other) = self.stands_at(&obstacle) {
             return fault(format!("is where {other} stands"));
+        }
+        if self.is_outside(&thing.pose()) {
+            return fault(OUTSIDE.to_owned());
         }
         if let Some(other) = self.scene.overlap(thing.hull, &thing.pose()) {
             return fault(format!("is inside {}", self.name_of(other)));

@@ -293,6 +293,16 @@ fn things_stand_in_nothing() {
             .contains("is inside circle(0, 0, 4)")
     );
     assert!(error(vec![thing(-50.0)]).contains("robot"));
+    let bounded = WorldSpec {
+        bounds: Some(Bounds { low: [-90.0, -90.0], high: [90.0, 90.0] }),
+        ..world(vec![thing(100.0)])
+    };
+    assert!(
+        Machine::new(&bounded, &default_robot(), Options::default())
+            .unwrap_err()
+            .to_string()
+            .contains("is outside of the world")
+    );
     let many = (0..65).map(|i| thing(f64::from(i) * 10.0)).collect();
     assert!(error(many).contains("at most 64"));
     let mut desk = desk(vec![thing(30.0), Item::circle([60.0, 0.0], 4.0)]);
