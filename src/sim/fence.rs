@@ -8,6 +8,7 @@ use crate::glue::terms::{Prolog, unify_atom};
 use ev3_driver::Error;
 use ev3_os::locked;
 use ev3_os::mailbox::readable;
+use ev3_os::sockets::with_address;
 use ev3_sim::far::wire::{Desk, Line, Next};
 use ev3_sim::{Clock, Simulation};
 use std::collections::BTreeMap;
@@ -129,7 +130,7 @@ natives! {
         }
         let (path, inferences) = (call.text(path)?, call.integer(inferences)?);
         let thinking = u64::try_from(inferences).unwrap_or(0);
-        let listener = UnixListener::bind(&*path)
+        let listener = with_address(Path::new(&*path), |path| UnixListener::bind(path))
             .and_then(|listener| listener.set_nonblocking(true).map(|()| listener));
         match listener {
             Ok(listener) => {

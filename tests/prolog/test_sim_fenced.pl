@@ -243,7 +243,30 @@ fences(Fences) :-
     directory_files(Folder, Names),
     include([Name]>>sub_atom(Name, 0, _, _, Begin), Names, Fences).
 
+%   Prolog names temporary files below the folder of this flag. 7.2.3 does not.
+heeds_tmp_dir :-
+    current_prolog_flag(version, Version),
+    Version >= 80000.
+
+:- meta_predicate in_deep_folder(0).
+
+in_deep_folder(Goal) :-
+    current_prolog_flag(tmp_dir, Was),
+    tmp_file('it\'s deep', Base),
+    findall(x, between(1, 120, _), Xs),
+    atomic_list_concat([Base, /|Xs], Deep),
+    setup_call_cleanup(
+        ( make_directory_path(Deep), set_prolog_flag(tmp_dir, Deep) ),
+        once(Goal),
+        ( set_prolog_flag(tmp_dir, Was), delete_directory_and_contents(Base) )).
+
 :- begin_tests(sim_fenced_walls, [condition(starts_itself)]).
+test(a_deep_folder_for_temporary_files,
+     [ forall(member(Enclosed, [false, true])),
+       condition(( heeds_tmp_dir, ( Enclosed == false ; can_enclose ) )),
+       Ended-Text == exit(0)-"here" ]) :-
+    in_deep_folder(fenced(["main :- us_dist_cm(in1, _), write(here)."], Ended, Text, _,
+                          [enclosed(Enclosed)])).
 test(no_probe_succeeds, [condition(can_enclose), Succeed == []]) :-
     setup_call_cleanup(
         setenv('EV3DEV_TEST_SECRET', token),
@@ -278,7 +301,7 @@ test(too_much_memory_together, Ended == limit(memory)) :-
             " { x=$(head -c 30000000 /dev/zero | tr \"\\\\0\" x); sleep 1000; } & done; wait')."],
            Ended, _, _, [memory(200)]).
 test(what_a_killed_process_has_left,
-     [ condition(current_prolog_flag(tmp_dir, _)), Found-Still == []-[] ]) :-  % 7.2.3 has none
+     [ condition(heeds_tmp_dir), Found-Still == []-[] ]) :-
     current_prolog_flag(executable, Prolog),
     current_prolog_flag(tmp_dir, Folder),
     format(atom(Goal), "use_module(library(ev3dev/private/batch/workplace)), \c

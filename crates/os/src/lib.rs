@@ -10,6 +10,8 @@ pub mod mailbox;
 #[cfg(not(unix))]
 pub mod page;
 pub mod processes;
+#[cfg(unix)]
+pub mod sockets;
 
 #[cfg(not(unix))]
 pub use linux::Errno;

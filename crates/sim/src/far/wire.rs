@@ -22,6 +22,7 @@ use super::{Answer, Far, Host, Kept, Kind, Question, nanos};
 use crate::machine::Machine;
 use ev3_os::locked;
 use ev3_os::mailbox::{Mailbox, Side, readable};
+use ev3_os::sockets::with_address;
 use std::cmp::Reverse;
 use std::collections::VecDeque;
 use std::io::{self, ErrorKind, Read, Write};
@@ -80,7 +81,7 @@ impl Line {
     /// Connects to the socket of this path; also the time there.
     /// Errors: the system's; `InvalidData` if nobody speaks so there.
     pub fn connect(path: &Path, lost: fn()) -> io::Result<(Line, Duration)> {
-        Line::new(UnixStream::connect(path)?, lost)
+        Line::new(with_address(path, |path| UnixStream::connect(path))?, lost)
     }
 
     /// Over a socket that is connected.
