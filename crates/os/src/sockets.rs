@@ -4,7 +4,7 @@ use std::io;
 use std::os::fd::AsRawFd as _;
 use std::path::Path;
 
-/// So many bytes of a path fit into the address of a socket in each system: 108 and a zero in
+/// The bytes of a path that fit into the address of a socket in each system: 108 and a zero in
 /// Linux, 104 in BSD.
 const FITS: usize = 100;
 
