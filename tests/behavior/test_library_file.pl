@@ -9,7 +9,7 @@
 The packs here hold nothing but ELF headers.
 */
 
-:- begin_tests(library_file).
+:- begin_tests(library_file, [cleanup(delete_packs)]).
 test(finds_a_library_that_the_program_can_load) :-
     library_file(File),
     exists_file(File).
@@ -201,13 +201,20 @@ found(Pack, Found) :-
 
 %   A pack of these files: `built` is that below lib, others are below native.
 
+:- dynamic made/1.                      % Pack
+
 pack(Files, Pack) :-
     tmp_file(pack, Pack),
+    make_directory(Pack),
+    assertz(made(Pack)),
     forall(member(Name-Kind, Files),
            ( library_of(Pack, Name, File),
              header(Kind, Bytes),
              put_file(File, Bytes)
            )).
+
+delete_packs :-
+    forall(retract(made(Pack)), delete_directory_and_contents(Pack)).
 
 library_of(Pack, built, File) :-
     !,
