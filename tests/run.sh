@@ -78,7 +78,7 @@ one() {
 
 # begin JOB BASE: runs it in a session of its own, whose number is in BASE.session
 begin() {
-    local TIMEFORMAT="%1R %1U+%1S" how=0
+    local TIMEFORMAT="%1R %1U+%1S" how=0 left
     mkdir "$2.tmp"
     # Prolog and C libraries look at TMP, the others at TMPDIR
     # shellcheck disable=SC2016
@@ -90,8 +90,9 @@ begin() {
         *) exec "$SWIPL" --on-warning=status --on-error=status -g "$3" -t halt "$1" ;;
         esac' -- "$1" "$2" "$plunit" </dev/null >"$2.log" 2>&1; } 2>"$2.time" || how=$?
     rm -f "$2.session"
-    if [ -n "$(ls -A "$2.tmp")" ]; then
-        echo "ERROR: left in the folder of temporary files: $(ls -A "$2.tmp" | head -n 5 | paste -sd ' ')" >>"$2.log"
+    left=$(find "$2.tmp" -mindepth 1 -maxdepth 1 -printf '%f ' | head -c 300)
+    if [ -n "$left" ]; then
+        echo "ERROR: left in the folder of temporary files: $left" >>"$2.log"
         how=1
     fi
     tail -n 1 "$2.time" | awk '{ split($2, cpu, "+"); print $1, cpu[1] + cpu[2] }' >"$2.took"
