@@ -229,7 +229,8 @@ describe('the playground', () => {
     const view = await (await page.$('#robot')).contentFrame();
     await view.evaluate(() => document.getElementById('reasoning-open').click());
     const shown = () => view.evaluate(() => window.ev3view.state());
-    await until(async () => (await shown()).reasoning?.rows === 27, 'the rows');
+    await until(async () => (await shown()).reasoning?.rows === 27, 'the rows')
+      .catch(async (error) => { throw new Error(`${error.message}: ${JSON.stringify([(await shown()).reasoning, (await shown()).notice, await state(page)])}`); });
     const { crosses } = (await shown()).reasoning;
     assert.deepEqual(crosses.map(([name]) => name), ['1', '2', '3']);
     await view.evaluate(() => [...document.querySelectorAll('.outline [role=treeitem]')].find((row) => /is false/.test(row.textContent)).click());

@@ -160,7 +160,7 @@ export const state = (page) => page.evaluate(() => window.ev3view?.state());
 
 /** The processor time of some processes and of all that these have started, in seconds; a tick of
     Linux is 10 ms. */
-function spent(roots) {
+export function spent(roots) {
   const all = fs.readdirSync('/proc').filter((name) => /^\d+$/.test(name)).flatMap((pid) => {
     try {
       const fields = fs.readFileSync(`/proc/${pid}/stat`, 'utf8').replace(/.*\)/s, '').trim().split(' ');

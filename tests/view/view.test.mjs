@@ -1626,9 +1626,10 @@ group('a program that prints without end', ROOM, 'goals(true)', (it) => {
     const atEnd = async (what) => until(() => it.page.$eval('#log', (list) => list.clientHeight && list.scrollHeight - list.clientHeight - list.scrollTop < 2), what);
     const marks = async (name) => {
       await it.session.ask(`forall(between(1, 40, I), view_mark(${name}(I)))`);
-      await shows(it.page, (s) => s.log.at(-1).text === `${name}(40)`, 'the last mark');
+      await shows(it.page, (s) => s.log.at(-1)?.text === `${name}(40)`, 'the last mark');
     };
     const think = () => it.page.$eval('#reasoning-open', (button) => button.click());
+    await marks('before');
     await think();
     await it.page.waitForSelector('.log-card', { hidden: true });
     await marks('thinking');

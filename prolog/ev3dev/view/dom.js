@@ -114,15 +114,19 @@ export function clock(seconds) {
     displayed meanwhile. Answers what is called after rows were added; with `true` it goes there
     in any case. */
 export function following(list) {
-  let atEnd = true;
+  let [atEnd, height] = [true, list.clientHeight];
   const follow = (goes = false) => {
     atEnd ||= goes;
     if (atEnd) list.scrollTop = list.scrollHeight;
   };
+  // One that is displayed again, or has another size, is scrolled by Firefox itself.
   list.addEventListener('scroll', () => {
-    if (list.clientHeight) atEnd = list.scrollTop + list.clientHeight >= list.scrollHeight - 24;
+    if (list.clientHeight === height) atEnd = list.scrollTop + list.clientHeight >= list.scrollHeight - 24;
   });
-  new ResizeObserver(() => follow()).observe(list);
+  new ResizeObserver(() => {
+    height = list.clientHeight;
+    follow();
+  }).observe(list);
   return follow;
 }
 
