@@ -34,8 +34,10 @@ const console_ = new Console((line) => machine.send(line), goToLine, unseen);
 const editor = new Text($('text'), { changed: keep, indented, run, words: [] });
 const tone = new Tone();
 let program = null;
-/** What was said of lines when the program was loaded, and by what the last goal failed. */
+/** What was said of lines when the program was loaded, and since it runs; and the error by which
+    the last goal ended. */
 let found = [];
+let raised = [];
 let failed = null;
 /** The exercise of the course that is open; the programs that everybody has; and the text of this
     one as it was kept last. */
@@ -127,6 +129,7 @@ function took(frame) {
 /** What was begun runs, until a frame says that it has ended. */
 function runs() {
   program = { state: 'running' };
+  raised = [];
   running(true);
 }
 
@@ -140,10 +143,11 @@ function heard(message) {
   else if (type === 'say') {
     window.speechSynthesis?.speak(new SpeechSynthesisUtterance(message.text));
   } else if (type === 'raised') {
-    if (failed) {
-      const error = { line: message.line, kind: 'error', text: failed };
-      editor.errors([...found, error]);
-      console_.was(message.line);
+    const { line, kind = 'error', text: words = failed } = message;
+    if (words) {
+      raised.push({ line, kind, text: words });
+      editor.errors([...found, ...raised]);
+      if (kind === 'error') console_.was(line);
     }
   }
   else if (what === 'check') checked(message);

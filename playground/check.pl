@@ -5,6 +5,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(ev3dev/exercise), []).
+:- use_module('../prolog/ev3dev/private/explain/last_goal', [goals_end/0]).
 :- use_module('../prolog/ev3dev/private/journal/causes',
               [follow_no_more/0]).
 :- use_module('../prolog/ev3dev/private/journal/fenced_log', [tell_to/1]).
@@ -33,6 +34,7 @@ earns there, unless it draws random numbers or counts the time of a processor.
 :- dynamic
     checking/0,
     fresh/1,                            % Goal: forgets the program
+    endless/0,                          % a run has needed too many inferences
     over/0.                             % the time of the run
 
 %!  checking is semidet.
@@ -57,7 +59,7 @@ checked(File, Exercise, Fresh, found(Points, Of, Seed, Text)) :-
           findall(Earned-Each, member(run(Each, Earned, _, _), Runs), Pairs),
           keysort(Pairs, [_-Seed|_]),
           shown(File, Exercise, Seed) ),
-        ( retractall(checking), retractall(fresh(_)),
+        ( retractall(checking), retractall(fresh(_)), retractall(endless),
           set_prolog_flag(stack_limit, Limit) )).
 
 shown(File, Exercise, Seed) :-
@@ -118,19 +120,40 @@ run(File, Goal, Seed, Seconds, Output, Told, Ended) :-
         written(Output, ended(File, Goal, Seconds, Ended), _),
         follow_no_more).
 
+%   So many inferences may a run need: a program that computes without end
+%   ends by that, whatever the clock of the page shows. No solution in the
+%   course needs a tenth of it. After a run that has needed more, the others
+%   get a quarter.
+most_inferences(20000000).
+
+may_need(Most) :-
+    most_inferences(Most0),
+    ( endless -> Most is Most0 // 4 ; Most = Most0 ).
+
+%   So many bytes may its stacks have.
+most_stack(256000000).
+
 %   As a process would.
 ended(File, Goal, Seconds, Ended) :-
     fresh(Fresh),
     call(Fresh),
     retractall(over),
+    most_stack(Bytes),
+    set_prolog_flag(stack_limit, Bytes),
+    may_need(Most),
     sim_time(Now),
     Until is Now+Seconds,
     plan(Until, ev3dev_playground_check:time_is_up, Id),
     call_cleanup(
-        catch(program(File, Goal, Status), Ball, true),
-        unplan(Id)),
+        catch(call_with_inference_limit(program(File, Goal, Status), Most,
+                                        Within),
+              Ball, true),
+        ( unplan(Id), goals_end )),
     (   over
     ->  Ended = over
+    ;   Within == inference_limit_exceeded
+    ->  assertz(endless),
+        Ended = limit(inferences(Most))
     ;   var(Ball)
     ->  Ended = exit(Status)
     ;   Ball = ev3dev_halt(Status)
@@ -140,7 +163,6 @@ ended(File, Goal, Seconds, Ended) :-
     view_stop_motors_,
     call(Fresh).
 
-%   A program that catches all goes on, until it waits again.
 time_is_up :-
     assertz(over),
     sim_time(Now),
@@ -160,7 +182,38 @@ program(File, Goal, Status) :-
         ( Why == failed -> Status = 1 ; Status = 2 )
     ).
 
+%   What ends a run is not for the program to catch.
+:- multifile user:goal_expansion/2.
+:- dynamic user:goal_expansion/2.
+
+passes_end(Goal0, Goal) :-
+    checking,
+    Goal0 =.. [Name, Called, Ball, Recovery],
+    memberchk(Name, [catch, catch_with_backtrace]),
+    Recovery \= ev3dev_playground_check:caught(_, _),
+    prolog_load_context(module, Module),
+    Goal =.. [ Name, Called, Ball,
+               ev3dev_playground_check:caught(Ball, Module:Recovery) ].
+
+user:goal_expansion(Goal, Expanded) :-
+    ev3dev_playground_check:passes_end(Goal, Expanded).
+
+:- public caught/2.
+:- meta_predicate caught(+, 0).
+
+caught(Ball, _) :-
+    ends_run(Ball),
+    !,
+    throw(Ball).
+caught(_, Recovery) :-
+    call(Recovery).
+
+ends_run(Ball) :-
+    var(Ball),
+    !,
+    fail.
 ends_run(ev3dev_over).
+ends_run(inference_limit_exceeded).
 ends_run(ev3dev_halt(_)).
 ends_run('$aborted').
 ends_run(unwind(abort)).

@@ -9,7 +9,8 @@ const IMPATIENCE = { wait: 20, rounds: 1e6, frames: 6 };
 /** So long nobody may ask for a frame, as a view that is not seen does not; then the page does. */
 const UNSEEN = 250;
 
-const HOME = '/home/web_user/';
+/** Folders of which nobody needs to know: that of the program, and those of the pack. */
+const FOLDERS = /\/(home\/web_user|pack(\/prolog|\/course)?)\b\/?/g;
 
 /** Words of the lines by which hands change a world, and of those that begin another one. */
 const HANDS = ['add', 'move', 'remove', 'unplug', 'plug', 'hold', 'free'];
@@ -58,8 +59,7 @@ export class Machine {
       else this.fails(data.fault);
       return;
     }
-    // Nobody has chosen the folder in which the program is.
-    const message = JSON.parse(data.replaceAll(HOME, ''));
+    const message = JSON.parse(data.replace(FOLDERS, ''));
     if (message.type === 'frame') {
       this.have = message.have;
       this.pose = message.robot?.true;

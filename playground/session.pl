@@ -2,6 +2,7 @@
           [ session/0
           ]).
 :- use_module(library(apply), [maplist/2]).
+:- use_module(library(listing), []).
 :- use_module(library(lists)).
 :- use_module(library(prolog_codewalk), [prolog_walk_code/1]).
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
@@ -14,12 +15,20 @@
 :- use_module(library(ev3dev/sim), []).
 :- use_module(library(ev3dev/time), [wait/1]).
 :- use_module('../prolog/ev3dev/private/native/native',
-              [ brick_use_/1, view_hear_/3, view_held_/0, view_open_/0,
-                view_pace_/1, view_say_/2, view_step_/2, view_stop_motors_/0,
+              [ brick_use_/1, running_/1, view_hear_/3, view_held_/0,
+                view_open_/0, view_pace_/1, view_say_/2, view_step_/2, view_stop_motors_/0,
                 view_thread_/1 ]).
 :- use_module('../prolog/ev3dev/private/run/brick', [brick/1]).
 :- use_module(check, [checked/4, checking/0]).
 :- use_module('../prolog/ev3dev/private/errors/frames', [program/1]).
+:- use_module('../prolog/ev3dev/private/errors/message_text',
+              [message_text/2]).
+:- use_module('../prolog/ev3dev/private/explain/error_messages',
+              [call_line/3]).
+:- use_module('../prolog/ev3dev/private/explain/last_goal',
+              [ forget_goals/0, goals_end/0, last_line/2, spare_memory/0,
+                watch_goals/1 ]).
+:- use_module('../prolog/ev3dev/private/explain/queries', [of_libraries/0]).
 :- use_module('../prolog/ev3dev/private/view/goals', [goal_solve/5]).
 :- use_module('../prolog/ev3dev/private/view/jog', [jog_round/2]).
 :- use_module('../prolog/ev3dev/private/view/log',
@@ -45,9 +54,11 @@ these:
 | `goal N TEXT`, `more N`, `enough N` | as there |
 
 `run` and `load` are answered by `done` with `errors`, a list of
-`{"line":3,"kind":"warning","text":".."}`. After a goal that has ended by an
-error comes `{"type":"raised","line":12}`: the clause of the program in which
-that was.
+`{"line":3,"kind":"warning","text":".."}`. A warning of a program that runs,
+and the goal by which it has failed, come as
+`{"type":"raised","line":12,"kind":"warning","text":".."}`. After a goal that
+has ended by an error comes `{"type":"raised","line":12}`: the line of the
+program in which that was.
 
 While the program runs, it lets the page go on between two slices of a wait,
 and after some thousand inferences: what the page has said is done then, and
@@ -63,10 +74,10 @@ the page is sent a frame. STOP is an abort at such a place.
     imported_first/1,                   % Head: what it exports
     loading/0,
     program_file/1,
-    raised/1,                           % Line: of the last error
+    raised/2,                           % Clause, PC: of the last error
     tracing_goals/0,
     typed/1,                            % Stream: has lines that were typed
-    warned/0.
+    warned/1.                           % Line: of the last warning
 
 %   The page has no number: there is one.
 page(0).
@@ -87,6 +98,7 @@ session :-
     ),
     retractall(loading),
     set_prolog_flag(heartbeat, 0),
+    goals_end,
     nb_setval(ev3dev_playground_turn, off),
     output_noted,
     stopped,
@@ -132,7 +144,7 @@ as_hand(Goal) :-
 
 % ---------------- LINES
 
-%   Waits for it; somebody may drive meanwhile.
+%   Waits for it; somebody may drive meanwhile, or motors may still run.
 next_line(Line) :-
     page(Page),
     view_hear_(Page, 0, Line0),
@@ -152,8 +164,19 @@ drives :-
     ;   get_time(Now),
         Round0 = Now-none
     ),
-    jog_round(Round0, Round),
+    (   jog_round(Round0, Round)
+    ->  true
+    ;   goes_on(Round0, Round)
+    ),
     assertz(driving(Round)).
+
+%   Motors that a goal has left running go on while the next one is typed.
+goes_on(Before-_, Now-none) :-
+    running_([_|_]),
+    \+ view_held_,
+    get_time(Now),
+    Passed is min(0.1, Now-Before),
+    view_step_(Passed, true).
 
 pause(Milliseconds) :-
     Promise := ev3dev_turn(Milliseconds),
@@ -210,8 +233,9 @@ program(Word, Name, Text) :-
     ->  true
     ;   entry(Text, Goals)
     ->  forall(member(Goal, Goals), goal(Goal, 0))
-    ;   note(warning, "The program is loaded. It has no start/0 to begin with: \c
-                       type a query.")
+    ;   note(warning, "The program is loaded, but it has no start/0 to begin \c
+                       with. Write `start :-` and its commands after it, \c
+                       with commas between them, or type a query.")
     ).
 
 %   But what began the world is still known: `Back to the start` begins it again.
@@ -225,6 +249,7 @@ forgotten :-
 
 forget_program :-
     retractall(program_file(_)),
+    forget_goals,
     forall(( program(Former), \+ sub_atom(Former, 0, _, _, '/pack/') ),
            unload_file(Former)),
     forall(( predicate_property(user:Head, dynamic),
@@ -264,9 +289,15 @@ program_written(Name, Text, File) :-
         close(Out)).
 
 %   Try the program on an exercise of the course.
+check(_, Exercise, _) :-
+    exercise_file(Exercise, Path),
+    \+ exists_file(Path),
+    !,
+    format(string(Said), "There is no exercise ~w.", [Exercise]),
+    note(warning, Said).
 check(Name, Exercise, Text) :-
     program_written(Name, Text, File),
-    atomic_list_concat(['/pack/course/', Exercise, '/exercise.pl'], Path),
+    exercise_file(Exercise, Path),
     leave_messages,
     running(call_cleanup(
                 checked(File, Path, ev3dev_playground:forget_program, Found),
@@ -278,6 +309,9 @@ check(Name, Exercise, Text) :-
                                seed=Seed, text=Said ]))
     ;   true
     ).
+
+exercise_file(Exercise, Path) :-
+    atomic_list_concat(['/pack/course/', Exercise, '/exercise.pl'], Path).
 
 loaded(File) :-
     setup_call_cleanup(
@@ -358,26 +392,101 @@ own(Query) :-
 
 goal(Text, Number) :-
     page(Page),
-    retractall(raised(_)),
-    retractall(warned),
+    retractall(raised(_, _)),
+    retractall(warned(_)),
+    watched(Text),
     open_string("", In),
     running(traced(goal_solve(Text, Page, Number, In, answered))),
-    (   retract(raised(Line))
-    ->  view_say_(Page, json([type=raised, line=Line]))
+    (   retract(raised(Clause, PC))
+    ->  call_line(Clause, PC, Line),
+        view_say_(Page, json([type=raised, line=Line]))
     ;   true
     ).
 
-%   The page's version of Prolog cannot say which goal it was.
+watched(Text) :-
+    of_libraries,
+    (   tracing_goals
+    ->  watch_goals(trace)
+    ;   catch(term_string(Goal, Text), error(_, _), fail)
+    ->  watch_goals(Goal)
+    ;   true
+    ).
+
+%   A warning at the same line has said why.
 :- multifile ev3dev_view_goals:failed/1.
 
 ev3dev_view_goals:failed(Goal) :-
-    \+ retract(warned),                 % that says why
     callable(Goal),
     program_file(File),
     predicate_property(user:Goal, file(File)),
-    format(string(Said), "~p is false: a goal in it has failed. To see which \c
-                          one, type `trace, ~p.`", [Goal, Goal]),
-    note(warning, Said).
+    (   last_line(File, Line)
+    ->  (   warned(Line)
+        ->  true
+        ;   message_text(ev3dev(failed(Goal)), Said),
+            note(warning, Said),
+            raised_at(Line, Said)
+        )
+    ;   format(string(Said), "~p is false: a goal in it has failed. To see \c
+                              which one, type `trace, ~p.`", [Goal, Goal]),
+        note(warning, Said)
+    ).
+
+raised_at(Line, Text) :-
+    page(Page),
+    view_say_(Page, json([type=raised, line=Line, kind=warning, text=Text])).
+
+%   Of all modules, those of the pack among them, a person means the program.
+user:listing :-
+    ev3dev_playground:listed(_).
+
+user:listing(What) :-
+    ev3dev_playground:listed(What).
+
+listed(What) :-
+    findall(Own, own_predicate(What, Own), All),
+    (   All == [],
+        nonvar(What)
+    ->  prolog_listing:listing(user:What)
+    ;   forall(member(Own, All), prolog_listing:listing(user:Own))
+    ).
+
+own_predicate(What, Name/Arity) :-
+    (   var(What)
+    ->  program_file(File)
+    ;   What = Name/Arity
+    ->  true
+    ;   atom(What),
+        Name = What
+    ),
+    current_predicate(user:Name/Arity),
+    functor(Head, Name, Arity),
+    \+ predicate_property(user:Head, imported_from(_)),
+    (   var(What)
+    ->  ( predicate_property(user:Head, file(File)) -> true
+        ; predicate_property(user:Head, dynamic),
+          \+ predicate_property(user:Head, multifile),
+          \+ predicate_property(user:Head, thread_local) )
+    ;   true
+    ).
+
+%   What a computer has, and a page has not.
+:- redefine_system_predicate(user:shell(_)).
+:- redefine_system_predicate(user:shell(_, _)).
+
+user:shell(_) :-
+    ev3dev_playground:no_shell(shell/1).
+
+user:shell(_, _) :-
+    ev3dev_playground:no_shell(shell/2).
+
+no_shell(Called) :-
+    throw(error(existence_error(shell, page),
+                context(Called, 'a page has no shell'))).
+
+:- multifile prolog:error_message//1.
+
+prolog:error_message(context_error(edit, _)) -->
+    [ 'the program is in the editor of the page already' ].
 
 %   What somebody types who knows nothing.
 :- redefine_system_predicate(user:help).
@@ -626,17 +735,19 @@ prolog:prolog_exception_hook(error(_, _), _, Frame, _, _) :-
 
 thrown_in(Frame) :-
     program_file(File),
-    retractall(raised(_)),
-    frame_line(Frame, File, Line),
-    assertz(raised(Line)).
+    in_program(Frame, none, File, Clause, PC),
+    retractall(raised(_, _)),
+    assertz(raised(Clause, PC)).
 
-frame_line(Frame, File, Line) :-
-    (   prolog_frame_attribute(Frame, clause, Clause),
-        clause_property(Clause, file(File)),
-        clause_property(Clause, line_count(Line0))
-    ->  Line = Line0
+%   PC is where the clause goes on.
+in_program(Frame, PC0, File, Clause, PC) :-
+    (   prolog_frame_attribute(Frame, clause, Clause0),
+        clause_property(Clause0, file(File))
+    ->  Clause = Clause0,
+        PC = PC0
     ;   prolog_frame_attribute(Frame, parent, Parent),
-        frame_line(Parent, File, Line)
+        ( prolog_frame_attribute(Frame, pc, PC1) -> true ; PC1 = none ),
+        in_program(Parent, PC1, File, Clause, PC)
     ).
 
 %   Wait for what the page says of an answer. Whatever else is to be solved
@@ -673,6 +784,7 @@ running(Goal) :-
         set_prolog_flag(heartbeat, Beat),
         ignore(Goal),
         ( set_prolog_flag(heartbeat, 0),
+          goals_end,
           forget_typed )),
     output_noted,
     stopped.
@@ -695,6 +807,7 @@ prolog:heartbeat :-
 turn :-
     nb_current(ev3dev_playground_turn, off),
     !,
+    spare_memory,
     (   view_held_
     ->  Held = true
     ;   Held = false
@@ -811,12 +924,19 @@ said(informational, _, Lines) :-
     string_concat("% ", Text0, Text),
     note(output, Text),
     fail.
-said(Kind, _, _) :-
-    (   Kind == warning
-    ->  retractall(warned),
-        assertz(warned)
+said(Kind, _, Lines) :-
+    (   Kind == warning,
+        program_file(File),
+        last_line(File, Line)
+    ->  retractall(warned(_)),
+        assertz(warned(Line)),
+        lines_text(Lines, Text),
+        raised_at(Line, Text)
     ;   true
     ).
+
+%   At the start Prolog's own sleep/1 of a page comes too late.
+user:message_hook(ignored_weak_import(user, wasm:_), _, _).
 
 %   What is said of the program while it is loaded stands at its line.
 of_program(Kind, Message, Lines) :-

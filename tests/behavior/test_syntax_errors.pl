@@ -122,6 +122,24 @@ test(a_clause_begins_with_a_variable,
                 with a small letter') :-
     catch('$record_clause'((_ :- true), user, _), Error, true),
     message_text(Error, Advice).
+test(a_clause_has_no_head,
+     [ forall(member(Clause, [(start -> go(3)), (go(3), stop), (a ; b)])),
+       true(sub_atom(Advice, 0, _, _, 'this clause has no head: ')) ]) :-
+    catch(assertz(Clause), error(Formal, _), true),
+    message_text(error(Formal, _), Advice).
+test(a_clause_is_of_a_predicate_of_prolog,
+     true(sub_atom(Advice, 0, _, _, 'atom_length/2 is one of Prolog\'s own'))) :-
+    catch(assertz((atom_length(_, _) :- true)), error(Formal, _), true),
+    message_text(error(Formal, _), Advice).
+test(a_program_changes_a_static_predicate_of_its_own,
+     true(sub_atom(Advice, _, _, _, 'No permission'))) :-
+    message_text(error(permission_error(modify, static_procedure, user:wrong/2),
+                       _), Advice).
+test(a_command_stands_alone,
+     true(sub_atom(Advice, 0, _, _, 'go_cm/2 is a predicate of the pack'))) :-
+    message_text(ignored_weak_import(user, ev3dev_robot:go_cm/2), Advice).
+test(a_number_is_divided_by_zero, Advice == 'a number is divided by 0') :-
+    message_text(error(evaluation_error(zero_divisor), _), Advice).
 test(a_program_has_lost_what_ended_a_line,
      [ forall(member(End, [",", "."])), true(More > 100+100*Less) ]) :-
     expand_file_name('examples/*.pl', Examples),

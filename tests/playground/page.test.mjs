@@ -107,7 +107,12 @@ async function ask(page, goal) {
   await page.keyboard.type(`${goal}\n`);
 }
 
-/** The marks beside lines, as `2 error`. */
+/** The line of the first mark. */
+const marked = (page) => page.evaluate(() => {
+  const mark = document.querySelector('.cm-lint-marker').getBoundingClientRect();
+  return Number([...document.querySelectorAll('.cm-lineNumbers .cm-gutterElement')].find((line) => Math.abs(line.getBoundingClientRect().top - mark.top) < 10)?.textContent);
+});
+/** The kinds of the marks beside lines. */
 const marks = (page) => page.$$eval('.cm-lint-marker', (all) => all.map((mark) => mark.className.replace(/.*cm-lint-marker-/, '')));
 
 describe('the playground', () => {
@@ -148,9 +153,19 @@ describe('the playground', () => {
     await run(page, `${HEAD}start :-\n    motor_run(outX, 30).\n`);
     await said(page, /there is no motor at outX; there are: outA/);
     await idle(page);
+    await until(async () => String(await marks(page)) === 'warning', 'a mark at the port');
+    assert.equal(await marked(page), 3);
 
     await run(page, `${HEAD}start :-\n    go_cm(20, 30).\n`);
     await said(page, /no robot is set/);
+    await idle(page);
+    await until(async () => await marked(page) === 3, 'a mark at the command');
+
+    await run(page, `${HEAD}start -> go(3).\n`);
+    await said(page, /^line 2 this clause has no head/);
+    await run(page, `${HEAD}go_cm(20, 30).\n`);
+    await said(page, /^line 2 go_cm\/2 is a predicate of the pack/);
+    await said(page, /no start\/0 to begin with\. Write `start :-`/);
     await idle(page);
 
     await run(page, `${HEAD}start :-\n    half(ten).\n\nhalf(X) :-\n    Y is X / 2, print(Y).\n`);
@@ -216,10 +231,52 @@ describe('the playground', () => {
     await idle(page);
   });
 
-  test('says that the program has failed, and how to see where', async () => {
-    await run(page, `${HEAD}start :- ${ROBOT}, go_cm(20, 3), drive(3).\ndrive(N) :- N > 10, go_cm(30, 2).\n`);
-    await said(page, /^start is false: a goal in it has failed.*`trace, start\.`/);
+  test('says by which goal the program has failed, at its line', async () => {
+    await run(page, `${HEAD}start :- ${ROBOT}, go_cm(20, 3), drive(3).\ndrive(N) :-\n    N > 10, go_cm(30, 2).\n`);
+    await said(page, /^my_robot\.pl:4: start failed; its last goal was 3>10, in drive\/1/);
     await idle(page);
+    await until(async () => String(await marks(page)) === 'warning' && await marked(page) === 4, 'a mark');
+    // The call that a clause ends with, too, and after a loop that only computes.
+    await run(page, `${HEAD}start :- count(100000), ${ROBOT}, drive(3).\ncount(0) :- !.\ncount(N) :- N > 0, M is N-1, count(M).\ndrive(N) :-\n    go_cm(20, N),\n    us_dist_cm(_, Cm),\n    near(Cm).\nnear(1).\n`);
+    await said(page, /^my_robot\.pl:8: start failed; its last goal was near\([\d.]+\), in drive\/1/);
+    await idle(page);
+  });
+
+  test('drives on while nobody asks anything', async () => {
+    await run(page, `${HEAD}start :- ${ROBOT}.\n`);
+    await idle(page);
+    await page.evaluate(() => document.getElementById('robot').contentDocument.getElementById('reset').click());
+    await until(async () => (await robot(page)).time === 0, 'the start');
+    await ask(page, `${ROBOT}, go(10).`);
+    await said(page, /^true/);
+    const { pose } = await robot(page);
+    await until(async () => (await robot(page)).pose[1] !== pose[1] && (await robot(page)).time > 0.3, 'a robot that moves');
+    await ask(page, 'stop.');
+    await idle(page);
+    const { time } = await robot(page);
+    await ask(page, 'X = standing.');
+    await said(page, /^X = standing/);
+    assert.equal((await robot(page)).time, time);
+  });
+
+  test('lists the program, and shows no folder of the page', async () => {
+    await run(page, `${HEAD}:- dynamic seen/1.\nseen(1).\nstart :- near(5).\nnear(X) :- X < 10.\n`);
+    await idle(page);
+    await page.click('#said-clear');
+    await ask(page, 'listing(start).');
+    await said(page, /^start :-\n    near\(5\)\.$/);
+    await idle(page);
+    await page.click('#said-clear');
+    await ask(page, 'listing.');
+    await said(page, /seen\(1\)\./);
+    for (const goal of ['X is 1/0.', 'shell(ls).', 'edit.', 'source_file(start, File).', 'module_property(ev3dev, file(File)).', 'consult(nothing).']) {
+      await ask(page, goal);
+      await until(async () => (await state(page)).said.at(-1)[0] !== 'goal', goal);
+      await idle(page);
+    }
+    const all = (await state(page)).said.map(([, words]) => words).join('\n');
+    for (const words of ['a number is divided by 0', 'a page has no shell', 'in the editor of the page already']) assert.ok(all.includes(words), all);
+    assert.doesNotMatch(all, /ev3dev_\w+:|web_user|\/pack|zero_divisor/);
   });
 
   test('shows what Prolog thinks beside the robot', async () => {
@@ -538,7 +595,12 @@ describe('the course', () => {
     assert.match(await page.$eval('#checked-text', (box) => box.textContent), /Line 1.*[Ss]yntax|Line 1.*[Ee]nd of file/);
     await page.click('#checked .text:not(.main)');
 
-    // A program that does not end: STOP is as for any other.
+    // A program that does not end by itself is ended, and STOP is as for any other.
+    await type(page, `${HEAD}start :- count(0).\ncount(N) :- M is N+1, count(M).\n`);
+    await page.click('#check');
+    await isOpen(page, '#checked');
+    assert.match(await page.$eval('#checked-text', (box) => box.textContent), /Stopped: it computes without end/);
+    await page.click('#checked .text:not(.main)');
     await type(page, 'start :- repeat, fail.');
     await page.click('#check');
     await until(() => page.$eval('#run', (button) => button.textContent === 'Stop'), 'a try');

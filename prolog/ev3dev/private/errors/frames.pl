@@ -175,4 +175,7 @@ program(File) :-
              file_directory_name(Ev3dev, Folder)
          ),
          sub_atom(File, 0, _, _, Folder)
+       ),
+    \+ ( source_file_property(File, module(Module)),
+         in_pack(Module:File, _, _)     % of a page
        ).

@@ -158,6 +158,30 @@ is_ours(Called) :-
     integer(Arity),
     is_public(_, Called).
 
+% ---------------- BEGINNERS' MISTAKES IN A FILE
+
+:- multifile prolog:error_message//1.
+
+prolog:error_message(evaluation_error(zero_divisor)) -->
+    [ 'a number is divided by 0' ].
+prolog:error_message(permission_error(modify, static_procedure, Called)) -->
+    { nonvar(Called),
+      strip_module(Called, _, Name/Arity),
+      functor(Head, Name, Arity),
+      predicate_property(system:Head, built_in)
+    },
+    (   { memberchk(Name/Arity, [(->)/2, (',')/2, (;)/2]) }
+    ->  [ 'this clause has no head: begin it with a name and :-, such as \c
+           start :- go_cm(20, 30).' ]
+    ;   [ '~q is one of Prolog\'s own predicates, and no clause changes it: \c
+           begin the clause with another name'-[Name/Arity] ]
+    ).
+prolog:message(ignored_weak_import(user, From:Called)) -->
+    { in_pack(From:Called, _, _) },
+    [ '~q is a predicate of the pack, and this clause begins another one. \c
+       To call it, write it into a rule, such as start :- go_cm(20, 30).'-
+      [Called] ].
+
 % ---------------- THE STACK IS FULL
 
 %   Since 7.7.14 the context of such an error says what filled the stack.

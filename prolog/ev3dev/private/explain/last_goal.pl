@@ -1,9 +1,13 @@
 :- module(ev3dev_last_goal,
           [ watch_goals/1,              % +Query
+            forget_goals/0,
+            goals_end/0,
+            spare_memory/0,
             watched/4,                  % ?Clause, ?PC, -Called, -Tail
             outcome/2,                  % :Goal, -Outcome
             report/2,                   % +Outcome, +Goal
             last_goal/3,                % -Goal, -In, -Place
+            last_line/2,                % -Path, -Line
             used_robot/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
@@ -35,9 +39,10 @@ The clauses of libraries are not watched, nor what threads call, nor what
 cleans up after a goal.
 
 A loop that only computes takes ten nanoseconds a round, so notes would make
-it a hundred times as slow. After 20000 notes without a goal of the pack, each
-break point that is met is removed, up to the next goal of the pack; from then
-on fewer notes are enough. While one is missing, nobody knows the last goal.
+it a hundred times as slow. After some thousand notes without a goal of the
+pack, each break point that is met is removed, up to the next goal of the
+pack; from then on fewer notes are enough. While one is missing, nobody knows
+the last goal.
 */
 
 :- meta_predicate outcome(0, -).
@@ -45,34 +50,138 @@ on fewer notes are enough. While one is missing, nobody knows the last goal.
 :- dynamic
     watched/4,
     uses_robot/2,                       % Clause, PC
-    removed/2,                          % Clause, PC
+    removed/2,                          % Clause, PC; of all it is `none`
     done/2.                             % File, when it was changed
 
 %!  watch_goals(+Query) is det.
 %
 %   Watch all programs that are loaded now; no goal of Query has been called.
 %   A debugger has its own break points, and while it traces, those here would
-%   be in its way. In version 10.1 a goal at a break point gets other
-%   variables than its clause has, so nothing is watched there.
+%   be in its way. In version 10.1 nothing is watched, except in a page.
 
 watch_goals(Query) :-
     nb_setval(ev3dev_last_goal, []),
     nb_setval(ev3dev_used_robot, false),
     nb_setval(ev3dev_notes, 0),
-    nb_setval(ev3dev_most_notes, 20000),
+    first_most(Most),
+    nb_setval(ev3dev_most_notes, Most),
+    retractall(removed(none, none)),
     set_again,
     (   ( current_prolog_flag(debug, true) ; debugs(Query) ; in_use ; unsafe )
-    ->  forall(retract(watched(Clause, PC, _, _)),
-               break(Clause, PC, false)),
-        retractall(uses_robot(_, _)),
-        retractall(done(_, _))
-    ;   forall(( program_file(File, Time), \+ done(File, Time) ),
+    ->  last_calls(gone),
+        forget_goals
+    ;   last_calls(kept),
+        forall(( program_file(File, Time), \+ done(File, Time) ),
                watch_file(File, Time))
     ).
 
+%!  forget_goals is det.
+%
+%   Watch nothing, until watch_goals/1 is called again.
+
+forget_goals :-
+    forall(retract(watched(Clause, PC, _, _)),
+           break(Clause, PC, false)),
+    retractall(uses_robot(_, _)),
+    retractall(removed(_, _)),
+    retractall(done(_, _)).
+
+%!  goals_end is det.
+%
+%   The query has ended: frames of last calls are no longer kept.
+
+goals_end :-
+    last_calls(gone).
+
+%!  spare_memory is det.
+%
+%   To be called now and then while a program is watched: hooks leave garbage.
+%   If it is too much, nothing is watched any more.
+
+% ---------------- VERSION 10.1
+
+:- if((current_prolog_flag(version, Version), Version >= 100100)).
+
+%   There a goal loses its arguments if its hook calls another goal, collects
+%   garbage, or makes a stack larger. So a hook only notes, and collects no
+%   garbage; the program keeps the frames of its last calls, which have break
+%   points then; and the stacks are larger before than hooks need: nothing is
+%   watched any more if half of that is used. That is for a page, which lives
+%   on if its Prolog crashes.
+
 unsafe :-
-    current_prolog_flag(version, Version),
-    Version >= 100100.
+    \+ current_prolog_flag(emscripten, true).
+
+last_calls(kept) :-
+    set_prolog_flag(last_call_optimisation, false),
+    forall(stack(Stack, _, Bytes),
+           ( Cells is Bytes//8,
+             set_prolog_stack(Stack, min_free(Cells)) )),
+    garbage_collect.
+last_calls(gone) :-
+    set_prolog_flag(last_call_optimisation, true).
+
+%   Their garbage has room.
+first_most(5000).
+
+tail_at(_, _, none).
+
+hook(Goal) :-
+    setup_call_cleanup(set_prolog_flag(gc, false),
+                       Goal,
+                       set_prolog_flag(gc, true)),
+    watch_if_room.
+
+spare_memory :-
+    (   current_prolog_flag(gc, true),  % so this is not within a hook
+        fills(4)
+    ->  garbage_collect,
+        watch_if_room
+    ;   true
+    ).
+
+watch_if_room :-
+    (   fills(2)
+    ->  goals_end,
+        forget_goals,
+        assertz(removed(none, none))
+    ;   true
+    ).
+
+%   While programs are watched, a stack fills one part of so many.
+fills(Parts) :-
+    current_prolog_flag(last_call_optimisation, false),
+    stack(_, Key, Bytes),
+    statistics(Key, Used),
+    Used > Bytes//Parts,
+    !.
+
+%   stack(Stack, Key, Bytes): so many are free when nothing runs yet.
+stack(local, localused, 8000000).
+stack(global, globalused, 16000000).
+stack(trail, trailused, 4000000).
+
+:- else.
+
+unsafe :-
+    fail.
+
+last_calls(_).
+
+first_most(20000).
+
+tail_at(Clause, PC, Tail) :-
+    (   tail_after(Clause, PC, Tail0)
+    ->  Tail = Tail0
+    ;   Tail = none
+    ).
+
+hook(Goal) :-
+    call(Goal).
+
+spare_memory.
+
+:- endif.
 
 debugs(Query) :-
     compound(Query),
@@ -154,17 +263,16 @@ part(Goal, Goal).
 
 watch(Instruction, Clause, PC) :-
     functor(Instruction, Operation, _),
-    (   tail_after(Clause, PC, Tail)
-    ->  true
-    ;   Tail = none
-    ),
+    tail_at(Clause, PC, Tail),
     (   memberchk(Operation, [i_enter, i_exit, i_exitfact, i_cut, i_true])
     ->  (   Tail == none
         ->  true
         ;   set(Clause, PC, nothing, Tail)
         )
     ;   compound(Instruction),
-        arg(1, Instruction, Module:Name/Arity)
+        arg(1, Instruction, Called),
+        clause_property(Clause, predicate(In:_)),
+        strip_module(In:Called, Module, Name/Arity)
     ->  functor(Head, Name, Arity),
         set(Clause, PC, Module:Head, Tail)
     ;   set(Clause, PC, none, Tail)
@@ -264,13 +372,15 @@ prolog:break_hook(Clause, PC, Frame, _, Goal, _, Action) :-
 stopped(Clause, PC, Frame, Goal, Action) :-
     watched(Clause, PC, Called, Tail),
     !,
-    catch(unthought(note(Clause, PC, Called, Tail, Frame, Goal, Action)),
+    catch(unthought(hook(note(Clause, PC, Called, Tail, Frame, Goal,
+                              Action))),
           error(resource_error(_), _), Action = continue).
 
 note(Clause, PC, Called, Tail, Frame, Goal, Action) :-
     (   computes_long(Clause, PC)
     ->  assertz(removed(Clause, PC)),
         break(Clause, PC, false),
+        last_calls(gone),
         Action = continue
     ;   take(Clause, PC, Called, Tail, Frame, Goal, Action)
     ).
@@ -281,7 +391,8 @@ computes_long(Clause, PC) :-
     ->  (   removed(_, _)
         ->  Most is max(Most0//4, 500),
             nb_setval(ev3dev_most_notes, Most),
-            set_again
+            set_again,
+            last_calls(kept)
         ;   true
         ),
         nb_setval(ev3dev_notes, 0),
@@ -297,7 +408,7 @@ computes_long(Clause, PC) :-
 most_notes(Most) :-
     (   nb_current(ev3dev_most_notes, Most0)
     ->  Most = Most0
-    ;   Most = 20000
+    ;   first_most(Most)
     ).
 
 %   A note takes none of the time that thinking takes, nor do the five calls
@@ -399,14 +510,27 @@ last_goal(Shown, In, Place) :-
     nb_current(ev3dev_last_goal, at(Clause, PC, Goal0)),
     clause_property(Clause, predicate(In0)),
     ( In0 = user:In -> true ; In = In0 ),
-    clause_property(Clause, file(Path)),
     ( Goal0 = _:Goal -> true ; Goal = Goal0 ),
     shown(Goal, Shown),
-    '$break_pc'(Clause, PC, Next),
-    use_module(library(prolog_stack), []),
-    call_line(Clause, Next, Line),
+    place_of(Clause, PC, Path, Line),
     short(Path, File),
     format(atom(Place), '~w:~d: ', [File, Line]),
+    !.
+
+place_of(Clause, PC, Path, Line) :-
+    clause_property(Clause, file(Path)),
+    '$break_pc'(Clause, PC, Next),
+    use_module(library(prolog_stack), []),
+    call_line(Clause, Next, Line).
+
+%!  last_line(-Path, -Line) is semidet.
+%
+%   The last goal is in that file.
+
+last_line(Path, Line) :-
+    \+ removed(_, _),
+    nb_current(ev3dev_last_goal, at(Clause, PC, _)),
+    place_of(Clause, PC, Path, Line),
     !.
 
 %!  outcome(:Goal, -Outcome) is det.

@@ -1,5 +1,6 @@
 :- module(ev3dev_queries,
-          [ calls/2                     % +Query, -Goal
+          [ calls/2,                    % +Query, -Goal
+            of_libraries/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module('../basics/small_lists', [and_list/2, one_of/2]).
@@ -61,8 +62,11 @@ begins(Query) :-
     fail.
 begins(_).
 
-%   list_undefined/0, which make/0 calls, looks at all modules that are not of
-%   libraries, and knows nothing of a library that is loaded at its first use.
+%!  of_libraries is det.
+%
+%   The modules of the pack are libraries from now on. list_undefined/0, which
+%   make/0 calls, looks at all other modules, and knows nothing of a library
+%   that is loaded at its first use; listing/1 shows predicates of all of them.
 
 of_libraries :-
     forall(( current_module(Module),

@@ -46,6 +46,12 @@ reason(limit(sleep), _, _, limits(_, Sleep), Seconds, Reason) :-
            'Stopped after ~w s of waiting (robot time ~1f s). Only \c
             wait/1 and devices let that time pass; sleep/1 does not.',
            [Sleep, Seconds]).
+reason(limit(inferences(Most)), _, _, _, Seconds, Reason) :-
+    Millions is Most // 1000000,
+    format(atom(Reason),
+           'Stopped: it computes without end, or for too long: more than ~d \c
+            million steps of Prolog (robot time ~1f s).',
+           [Millions, Seconds]).
 reason(lost, _Output, _, _, _,
        'It was not marked, because the machine was too busy: mark it again.').
 reason(limit(output), _, _, _, Seconds, Reason) :-

@@ -174,10 +174,14 @@ unsolved(Ball, _, Page, Number) :-
         answer(Page, Number, error, Why)
     ).
 
-%   What calls the goal is not of the program.
+%   What calls the goal is not of the program, nor does `(/)/2` call anything.
 without_caller(error(Formal, context(Caller, Text)), Error) :-
     nonvar(Caller),
-    memberchk(Caller, [system:call_cleanup/2, system:'<meta-call>'/1]),
+    (   memberchk(Caller, [ system:call_cleanup/2, system:'<meta-call>'/1,
+                            ev3dev_frames:goal_of_program/1 ])
+    ->  true
+    ;   Formal = evaluation_error(_)
+    ),
     !,
     Error = error(Formal, context(_, Text)).
 without_caller(Error, Error).
