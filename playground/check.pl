@@ -34,8 +34,10 @@ earns there, unless it draws random numbers or counts the time of a processor.
 :- dynamic
     checking/0,
     fresh/1,                            % Goal: forgets the program
-    endless/0,                          % a run has needed too many inferences
-    over/0.                             % the time of the run
+    endless/0,                          % a run has needed too many
+                                        % inferences
+    over/0,                             % the time of the run
+    overdone/1.                         % Count: a goal has needed more
 
 %!  checking is semidet.
 %
@@ -138,24 +140,21 @@ ended(File, Goal, Seconds, Ended) :-
     fresh(Fresh),
     call(Fresh),
     retractall(over),
+    retractall(overdone(_)),
     most_stack(Bytes),
     set_prolog_flag(stack_limit, Bytes),
-    may_need(Most),
     sim_time(Now),
     Until is Now+Seconds,
     plan(Until, ev3dev_playground_check:time_is_up, Id),
     call_cleanup(
-        catch(call_with_inference_limit(program(File, Goal, Status), Most,
-                                        Within),
-              Ball, true),
+        catch(program(File, Goal, Status), Ball, true),
         ( unplan(Id), goals_end )),
     (   over
     ->  Ended = over
-    ;   Within == inference_limit_exceeded
-    ->  assertz(endless),
-        Ended = limit(inferences(Most))
     ;   var(Ball)
     ->  Ended = exit(Status)
+    ;   Ball = ev3dev_endless(Most)
+    ->  Ended = limit(inferences(Most))
     ;   Ball = ev3dev_halt(Status)
     ->  Ended = exit(Status)
     ;   throw(Ball)
@@ -172,7 +171,9 @@ time_is_up :-
 
 program(File, Goal, Status) :-
     load_files(user:File, []),
-    catch(( user:Goal -> Why = none ; Why = failed ), Why, true),
+    ( retract(overdone(Most)) -> throw(ev3dev_endless(Most)) ; true ),
+    catch(( bounded(user:Goal) -> Why = none ; Why = failed ), Why, true),
+    ( retract(overdone(Most)) -> throw(ev3dev_endless(Most)) ; true ),
     (   Why == none
     ->  Status = 0
     ;   ends_run(Why)
@@ -182,16 +183,65 @@ program(File, Goal, Status) :-
         ( Why == failed -> Status = 1 ; Status = 2 )
     ).
 
+%   Prolog catches what a directive throws, so each has a limit of its own, as
+%   the goal has.
+:- multifile user:term_expansion/2.
+:- dynamic user:term_expansion/2.
+
+bounded_directive((:- Goal0), (:- Goal)) :-
+    callable(Goal0),
+    loads_program(Module),
+    (   Goal0 = initialization(Called)
+    ->  Goal = initialization(Bounded)
+    ;   is_run(Goal0),
+        Called = Goal0,
+        Goal = Bounded
+    ),
+    Bounded = ev3dev_playground_check:bounded(Module:Called),
+    Called \= ev3dev_playground_check:_.
+
+%   Module is that into which a file of the program is loaded now.
+loads_program(Module) :-
+    checking,
+    prolog_load_context(source, File),
+    \+ ( member(Folder, ['/pack/', '/swipl/']),
+         sub_atom(File, 0, _, _, Folder) ),
+    prolog_load_context(module, Module).
+
+is_run(module(_, _)) :-
+    !,
+    fail.
+is_run(Goal) :-
+    (   predicate_property(system:Goal, built_in)
+    ->  functor(Goal, Name, _),
+        memberchk(Name, [(','), (;), (->), (*->), (\+), forall, findall])
+    ;   Goal \= _:_
+    ).
+
+user:term_expansion(Term, Bounded) :-
+    ev3dev_playground_check:bounded_directive(Term, Bounded).
+
+:- public bounded/1.
+:- meta_predicate bounded(0).
+
+bounded(Goal) :-
+    may_need(Most),
+    call_with_inference_limit(Goal, Most, Within),
+    (   Within == inference_limit_exceeded
+    ->  assertz(endless),
+        assertz(overdone(Most))
+    ;   true
+    ).
+
 %   What ends a run is not for the program to catch.
 :- multifile user:goal_expansion/2.
 :- dynamic user:goal_expansion/2.
 
 passes_end(Goal0, Goal) :-
-    checking,
+    loads_program(Module),
     Goal0 =.. [Name, Called, Ball, Recovery],
     memberchk(Name, [catch, catch_with_backtrace]),
     Recovery \= ev3dev_playground_check:caught(_, _),
-    prolog_load_context(module, Module),
     Goal =.. [ Name, Called, Ball,
                ev3dev_playground_check:caught(Ball, Module:Recovery) ].
 

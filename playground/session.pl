@@ -16,7 +16,8 @@
 :- use_module(library(ev3dev/time), [wait/1]).
 :- use_module('../prolog/ev3dev/private/native/native',
               [ brick_use_/1, running_/1, view_hear_/3, view_held_/0,
-                view_open_/0, view_pace_/1, view_say_/2, view_step_/2, view_stop_motors_/0,
+                view_open_/0, view_pace_/1, view_say_/2, view_step_/2,
+                view_stop_motors_/0,
                 view_thread_/1 ]).
 :- use_module('../prolog/ev3dev/private/run/brick', [brick/1]).
 :- use_module(check, [checked/4, checking/0]).
@@ -28,7 +29,6 @@
 :- use_module('../prolog/ev3dev/private/explain/last_goal',
               [ forget_goals/0, goals_end/0, last_line/2, spare_memory/0,
                 watch_goals/1 ]).
-:- use_module('../prolog/ev3dev/private/explain/queries', [of_libraries/0]).
 :- use_module('../prolog/ev3dev/private/view/goals', [goal_solve/5]).
 :- use_module('../prolog/ev3dev/private/view/jog', [jog_round/2]).
 :- use_module('../prolog/ev3dev/private/view/log',
@@ -404,7 +404,6 @@ goal(Text, Number) :-
     ).
 
 watched(Text) :-
-    of_libraries,
     (   tracing_goals
     ->  watch_goals(trace)
     ;   catch(term_string(Goal, Text), error(_, _), fail)

@@ -96,7 +96,8 @@ const ENDLESS = {
   counts: 'start :- count(0).\ncount(N) :- M is N+1, count(M).',
   'fails in a loop': 'start :- repeat, fail.',
   'collects without an end': 'start :- findall(X, between(1, inf, X), _).',
-  'computes when it is loaded': ':- initialization(start).\nstart :- start.',
+  'computes when it is loaded': 'start :- start.\n:- start.',
+  'computes after it is loaded': ':- initialization(start).\nstart :- start.',
   'catches all, and computes': 'start :- catch(count(0), _, true), start.\ncount(N) :- M is N+1, count(M).',
 };
 const WAITS = `start :- ${GOES}, repeat, catch((wait(0.1), fail), _, fail).`;

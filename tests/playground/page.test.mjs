@@ -169,7 +169,7 @@ describe('the playground', () => {
     await idle(page);
 
     await run(page, `${HEAD}start :-\n    half(ten).\n\nhalf(X) :-\n    Y is X / 2, print(Y).\n`);
-    await said(page, /^line 5 .*`ten\/0' is not a function/);
+    await said(page, /^line 6 .*`ten\/0' is not a function/);
     assert.ok((await marks(page)).includes('error'));
 
     await run(page, 'start :- us_dist_cm(_, Cm), print(Cm).\n');

@@ -148,7 +148,7 @@ watch_if_room :-
     ;   true
     ).
 
-%   While programs are watched, a stack fills one part of so many.
+%   While programs are watched, a stack fills one of these parts.
 fills(Parts) :-
     current_prolog_flag(last_call_optimisation, false),
     stack(_, Key, Bytes),
@@ -156,7 +156,7 @@ fills(Parts) :-
     Used > Bytes//Parts,
     !.
 
-%   stack(Stack, Key, Bytes): so many are free when nothing runs yet.
+%   stack(Stack, Key, Bytes): they are free when nothing runs yet.
 stack(local, localused, 8000000).
 stack(global, globalused, 16000000).
 stack(trail, trailused, 4000000).

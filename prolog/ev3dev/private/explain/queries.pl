@@ -1,6 +1,5 @@
 :- module(ev3dev_queries,
-          [ calls/2,                    % +Query, -Goal
-            of_libraries/0
+          [ calls/2                     % +Query, -Goal
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module('../basics/small_lists', [and_list/2, one_of/2]).
@@ -62,11 +61,8 @@ begins(Query) :-
     fail.
 begins(_).
 
-%!  of_libraries is det.
-%
-%   The modules of the pack are libraries from now on. list_undefined/0, which
-%   make/0 calls, looks at all other modules, and knows nothing of a library
-%   that is loaded at its first use; listing/1 shows predicates of all of them.
+%   list_undefined/0, which make/0 calls, looks at all modules that are not of
+%   libraries, and knows nothing of a library that is loaded at its first use.
 
 of_libraries :-
     forall(( current_module(Module),
