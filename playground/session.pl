@@ -2,7 +2,7 @@
           [ session/0
           ]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(listing), []).
+:- use_module(library(listing), [portray_clause/1]).
 :- use_module(library(lists)).
 :- use_module(library(prolog_codewalk), [prolog_walk_code/1]).
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
@@ -17,8 +17,7 @@
 :- use_module('../prolog/ev3dev/private/native/native',
               [ brick_use_/1, running_/1, view_hear_/3, view_held_/0,
                 view_open_/0, view_pace_/1, view_say_/2, view_step_/2,
-                view_stop_motors_/0,
-                view_thread_/1 ]).
+                view_stop_motors_/0, view_thread_/1 ]).
 :- use_module('../prolog/ev3dev/private/run/brick', [brick/1]).
 :- use_module(check, [checked/4, checking/0]).
 :- use_module('../prolog/ev3dev/private/errors/frames', [program/1]).
@@ -446,8 +445,21 @@ listed(What) :-
     (   All == [],
         nonvar(What)
     ->  prolog_listing:listing(user:What)
-    ;   forall(member(Own, All), prolog_listing:listing(user:Own))
+    ;   forall(member(Own, All), list_own(Own))
     ).
+
+%   listing/1 would look for Name/Arity in other modules, too.
+list_own(Name/Arity) :-
+    functor(Head, Name, Arity),
+    (   predicate_property(user:Head, dynamic)
+    ->  format(":- dynamic ~q.~n~n", [Name/Arity])
+    ;   true
+    ),
+    forall(clause(user:Head, Body, Clause),
+           ( ignore(prolog_listing:restore_variable_names(user, Head, Body,
+                                                          Clause, [])),
+             portray_clause((Head :- Body)) )),
+    nl.
 
 own_predicate(What, Name/Arity) :-
     (   var(What)

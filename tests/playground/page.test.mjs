@@ -233,12 +233,12 @@ describe('the playground', () => {
 
   test('says by which goal the program has failed, at its line', async () => {
     await run(page, `${HEAD}start :- ${ROBOT}, go_cm(20, 3), drive(3).\ndrive(N) :-\n    N > 10, go_cm(30, 2).\n`);
-    await said(page, /^my_robot\.pl:4: start failed; its last goal was 3>10, in drive\/1/);
+    await said(page, /^line 4 start failed; its last goal was 3>10, in drive\/1/);
     await idle(page);
     await until(async () => String(await marks(page)) === 'warning' && await marked(page) === 4, 'a mark');
     // The call that a clause ends with, too, and after a loop that only computes.
     await run(page, `${HEAD}start :- count(100000), ${ROBOT}, drive(3).\ncount(0) :- !.\ncount(N) :- N > 0, M is N-1, count(M).\ndrive(N) :-\n    go_cm(20, N),\n    us_dist_cm(_, Cm),\n    near(Cm).\nnear(1).\n`);
-    await said(page, /^my_robot\.pl:8: start failed; its last goal was near\([\d.]+\), in drive\/1/);
+    await said(page, /^line 8 start failed; its last goal was near\([\d.]+\), in drive\/1/);
     await idle(page);
   });
 
