@@ -280,6 +280,9 @@ describe('the playground', () => {
   });
 
   test('shows what Prolog thinks beside the robot', async () => {
+    // What it tries depends on where the robot stands.
+    await page.evaluate(() => document.getElementById('robot').contentDocument.getElementById('reset').click());
+    await until(async () => (await robot(page)).time === 0, 'the start');
     await run(page, fs.readFileSync(path.join(home, 'examples/backtracking.pl'), 'utf8'));
     await said(page, /reasoning\(start\)/);
     await idle(page);
