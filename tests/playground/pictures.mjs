@@ -10,13 +10,14 @@ const page = await browser.newPage();
 await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: 'light' }]);
 await page.setViewport({ width: 1300, height: 800 });
 await page.goto(server.url);
-const state = () => page.evaluate(() => window.ev3dev.state());
+const state = () => page.evaluate(() => window.ev3dev?.state());
 const time = () => page.evaluate(() => document.getElementById('robot').contentWindow?.ev3view?.state().time).catch(() => null);
 const take = async (name) => keep(browser, await page.screenshot({ encoding: 'base64' }), name);
 
-await until(async () => (await state()).open && await time() !== null, 'the robot');
+await until(async () => (await state())?.open && await time() !== null, 'the robot');
 await page.click('#run');
 await until(async () => await time() > 14, 'some seconds');
+await until(() => page.$('.cm-called'), 'the goal that was called');
 await take('playground');
 
 await page.click('#run');
