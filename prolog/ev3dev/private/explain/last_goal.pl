@@ -130,28 +130,40 @@ hook(Goal) :-
     setup_call_cleanup(set_prolog_flag(gc, false),
                        Goal,
                        set_prolog_flag(gc, true)),
-    watch_if_room.
+    (   fills(_, 2)
+    ->  watch_no_more
+    ;   true
+    ).
 
 spare_memory :-
     (   current_prolog_flag(gc, true),  % so this is not within a hook
-        fills(4)
+        has_garbage
     ->  garbage_collect,
-        watch_if_room
+        (   has_garbage
+        ->  watch_no_more
+        ;   true
+        )
     ;   true
     ).
 
-watch_if_room :-
-    (   fills(2)
-    ->  goals_end,
-        forget_goals,
-        assertz(removed(none, none))
-    ;   true
-    ).
+%   An engine has stacks of its own.
+is_small :-
+    engine_self(_).
 
-%   While programs are watched, a stack fills one of these parts.
-fills(Parts) :-
+has_garbage :-
+    fills(global, 4).
+has_garbage :-
+    fills(trail, 4).
+
+watch_no_more :-
+    goals_end,
+    forget_goals,
+    assertz(removed(none, none)).
+
+%   While programs are watched, Stack fills one of these parts.
+fills(Stack, Parts) :-
     current_prolog_flag(last_call_optimisation, false),
-    stack(_, Key, Bytes),
+    stack(Stack, Key, Bytes),
     statistics(Key, Used),
     Used > Bytes//Parts,
     !.
@@ -181,6 +193,11 @@ hook(Goal) :-
     call(Goal).
 
 spare_memory.
+
+is_small :-
+    fail.
+
+watch_no_more.
 
 :- endif.
 
@@ -373,9 +390,13 @@ prolog:break_hook(Clause, PC, Frame, _, Goal, _, Action) :-
 stopped(Clause, PC, Frame, Goal, Action) :-
     watched(Clause, PC, Called, Tail),
     !,
-    catch(unthought(hook(note(Clause, PC, Called, Tail, Frame, Goal,
-                              Action))),
-          error(resource_error(_), _), Action = continue).
+    (   is_small
+    ->  watch_no_more,
+        Action = continue
+    ;   catch(unthought(hook(note(Clause, PC, Called, Tail, Frame, Goal,
+                                  Action))),
+              error(resource_error(_), _), Action = continue)
+    ).
 
 note(Clause, PC, Called, Tail, Frame, Goal, Action) :-
     (   computes_long(Clause, PC)
