@@ -21,13 +21,10 @@
 :- use_module('../prolog/ev3dev/private/run/brick', [brick/1]).
 :- use_module(check, [checked/4, checking/0]).
 :- use_module('../prolog/ev3dev/private/errors/frames', [program/1]).
-:- use_module('../prolog/ev3dev/private/errors/message_text',
-              [message_text/2]).
 :- use_module('../prolog/ev3dev/private/explain/error_messages',
               [call_line/3]).
 :- use_module('../prolog/ev3dev/private/explain/last_goal',
-              [ forget_goals/0, goals_end/0, last_line/2, spare_memory/0,
-                watch_goals/1 ]).
+              [forget_goals/0, goals_end/0, spare_memory/0]).
 :- use_module('../prolog/ev3dev/private/view/goals', [goal_solve/5]).
 :- use_module('../prolog/ev3dev/private/view/jog', [jog_round/2]).
 :- use_module('../prolog/ev3dev/private/view/log',
@@ -53,9 +50,8 @@ these:
 | `goal N TEXT`, `more N`, `enough N` | as there |
 
 `run` and `load` are answered by `done` with `errors`, a list of
-`{"line":3,"kind":"warning","text":".."}`. A warning of a program that runs,
-and the goal by which it has failed, come as
-`{"type":"raised","line":12,"kind":"warning","text":".."}`. After a goal that
+`{"line":3,"kind":"warning","text":".."}`. A warning of a program that runs
+comes as `{"type":"raised","line":12,"kind":"warning","text":".."}`. After a goal that
 has ended by an error comes `{"type":"raised","line":12}`: the line of the
 program in which that was.
 
@@ -76,7 +72,7 @@ the page is sent a frame. STOP is an abort at such a place.
     raised/2,                           % Clause, PC: of the last error
     tracing_goals/0,
     typed/1,                            % Stream: has lines that were typed
-    warned/1.                           % Line: of the last warning
+    warned/0.
 
 %   The page has no number: there is one.
 page(0).
@@ -392,8 +388,7 @@ own(Query) :-
 goal(Text, Number) :-
     page(Page),
     retractall(raised(_, _)),
-    retractall(warned(_)),
-    watched(Text),
+    retractall(warned),
     open_string("", In),
     running(traced(goal_solve(Text, Page, Number, In, answered))),
     (   retract(raised(Clause, PC))
@@ -402,32 +397,18 @@ goal(Text, Number) :-
     ;   true
     ).
 
-watched(Text) :-
-    (   tracing_goals
-    ->  watch_goals(trace)
-    ;   catch(term_string(Goal, Text), error(_, _), fail)
-    ->  watch_goals(Goal)
-    ;   true
-    ).
-
-%   A warning at the same line has said why.
+%   Here nothing is watched: frames of last calls would be kept in libraries,
+%   too, which may call themselves millions of times.
 :- multifile ev3dev_view_goals:failed/1.
 
 ev3dev_view_goals:failed(Goal) :-
+    \+ retract(warned),                 % that says why
     callable(Goal),
     program_file(File),
     predicate_property(user:Goal, file(File)),
-    (   last_line(File, Line)
-    ->  (   warned(Line)
-        ->  true
-        ;   message_text(ev3dev(failed(Goal)), Said),
-            note(warning, Said),
-            raised_at(Line, Said)
-        )
-    ;   format(string(Said), "~p is false: a goal in it has failed. To see \c
-                              which one, type `trace, ~p.`", [Goal, Goal]),
-        note(warning, Said)
-    ).
+    format(string(Said), "~p is false: a goal in it has failed. To see which \c
+                          one, type `trace, ~p.`", [Goal, Goal]),
+    note(warning, Said).
 
 raised_at(Line, Text) :-
     page(Page),
@@ -936,15 +917,20 @@ said(informational, _, Lines) :-
     note(output, Text),
     fail.
 said(Kind, _, Lines) :-
-    (   Kind == warning,
-        program_file(File),
-        last_line(File, Line)
-    ->  retractall(warned(_)),
-        assertz(warned(Line)),
-        lines_text(Lines, Text),
-        raised_at(Line, Text)
+    (   Kind == warning
+    ->  retractall(warned),
+        assertz(warned),
+        ignore(warned_at(Lines))
     ;   true
     ).
+
+warned_at(Lines) :-
+    program_file(File),
+    prolog_current_frame(Frame),
+    in_program(Frame, none, File, Clause, PC),
+    call_line(Clause, PC, Line),
+    lines_text(Lines, Text),
+    raised_at(Line, Text).
 
 %   At the start Prolog's own sleep/1 of a page comes too late.
 user:message_hook(ignored_weak_import(user, wasm:_), _, _).

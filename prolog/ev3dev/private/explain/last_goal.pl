@@ -7,7 +7,6 @@
             outcome/2,                  % :Goal, -Outcome
             report/2,                   % +Outcome, +Goal
             last_goal/3,                % -Goal, -In, -Place
-            last_line/2,                % -Path, -Line
             used_robot/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
@@ -65,7 +64,7 @@ watch_goals(Query) :-
     nb_setval(ev3dev_notes, 0),
     first_most(Most),
     nb_setval(ev3dev_most_notes, Most),
-    retractall(removed(none, none)),
+    retractall(removed(_, none)),
     set_again,
     (   ( current_prolog_flag(debug, true) ; debugs(Query) ; in_use ; unsafe )
     ->  last_calls(gone),
@@ -113,27 +112,46 @@ unsafe :-
     \+ current_prolog_flag(emscripten, true).
 
 last_calls(kept) :-
-    set_prolog_flag(last_call_optimisation, false),
+    last_calls_are(false),
     forall(stack(Stack, _, Bytes),
            ( Cells is Bytes//8,
              set_prolog_stack(Stack, min_free(Cells)) )),
     garbage_collect.
 last_calls(gone) :-
-    set_prolog_flag(last_call_optimisation, true).
+    last_calls_are(true).
 
 %   Their garbage has room.
 first_most(5000).
 
 tail_at(_, _, none).
 
-hook(Goal) :-
+%   A library may call itself millions of times: its last calls keep nothing.
+hook(Goal, Called) :-
     setup_call_cleanup(set_prolog_flag(gc, false),
                        Goal,
                        set_prolog_flag(gc, true)),
+    (   retract(removed(library, none))
+    ->  last_calls_are(false)
+    ;   true
+    ),
     (   fills(_, 2)
     ->  watch_no_more
+    ;   Called = Module:Head,
+        is_of_library(Module:Head)
+    ->  last_calls_are(true),
+        assertz(removed(library, none))
     ;   true
     ).
+
+is_of_library(Called) :-
+    (   predicate_property(Called, imported_from(Module))
+    ->  \+ in_pack(Module:x/0, _, _),
+        Module \== system
+    ;   \+ predicate_property(Called, defined)
+    ).
+
+last_calls_are(Reused) :-
+    set_prolog_flag(last_call_optimisation, Reused).
 
 spare_memory :-
     (   current_prolog_flag(gc, true),  % so this is not within a hook
@@ -143,6 +161,8 @@ spare_memory :-
         ->  watch_no_more
         ;   true
         )
+    ;   fills(local, 2)
+    ->  watch_no_more
     ;   true
     ).
 
@@ -189,7 +209,7 @@ tail_at(Clause, PC, Tail) :-
     ;   Tail = none
     ).
 
-hook(Goal) :-
+hook(Goal, _) :-
     call(Goal).
 
 spare_memory.
@@ -394,7 +414,7 @@ stopped(Clause, PC, Frame, Goal, Action) :-
     ->  watch_no_more,
         Action = continue
     ;   catch(unthought(hook(note(Clause, PC, Called, Tail, Frame, Goal,
-                                  Action))),
+                                  Action), Called)),
               error(resource_error(_), _), Action = continue)
     ).
 
@@ -544,16 +564,6 @@ place_of(Clause, PC, Path, Line) :-
     '$break_pc'(Clause, PC, Next),
     use_module(library(prolog_stack), []),
     call_line(Clause, Next, Line).
-
-%!  last_line(-Path, -Line) is semidet.
-%
-%   The last goal is in that file.
-
-last_line(Path, Line) :-
-    \+ removed(_, _),
-    nb_current(ev3dev_last_goal, at(Clause, PC, _)),
-    place_of(Clause, PC, Path, Line),
-    !.
 
 %!  outcome(:Goal, -Outcome) is det.
 %
