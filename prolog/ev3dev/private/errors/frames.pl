@@ -177,5 +177,5 @@ program(File) :-
          sub_atom(File, 0, _, _, Folder)
        ),
     \+ ( source_file_property(File, module(Module)),
-         in_pack(Module:File, _, _)     % of a page
+         in_pack(Module:File, _, _)     % of a page, or not in its folder
        ).

@@ -198,7 +198,9 @@ prolog:message(error(syntax_error(Kind), Where)) -->
     Lines.
 prolog:message(error(instantiation_error, Context)) -->
     { nonvar(Context),
-      Context = context(system:'$record_clause'/_, _)
+      Context = context(Called, _),
+      nonvar(Called),                   % it is not, with a stack
+      Called = system:'$record_clause'/_
     },
     [ 'a clause begins with a variable: names of predicates begin with a \c
        small letter'-[] ].
