@@ -1,5 +1,6 @@
 :- use_module('../support/cases').
 :- use_module('../support/trees').
+:- use_module(library(ev3dev/bricks), [brick/1, brick_close/1, brick_open/2, use_brick/1, with_brick/2]).
 :- use_module(library(ev3dev/events), [race/2]).
 
 :- begin_tests(sim_time).
@@ -463,10 +464,41 @@ test(time_that_the_page_has_stopped_stays_so) :-
                                     ( interrupted(_), print_message(silent, interrupt(end)),
                                       ev3dev_native:view_held_ ),
                                     ev3dev_native:view_pause_(false)), [clock(realtime)]).
+% An abort has left with_brick/2 when it is printed, and another brick is in use.
+test(the_time_of_another_brick_goes_on, [forall(member(Way, [apart, crowd]))]) :-
+    with_anna(Way, ( with_brick(anna, ( interrupted(Stood), ev3dev_native:view_held_ )),
+                     Stood =:= 0,
+                     print_message(silent, '$aborted'),
+                     use_brick(local),
+                     with_brick(anna, ( \+ ev3dev_native:view_held_, goes_on )) )).
+test(the_brick_may_be_closed_meanwhile) :-
+    with_anna(apart, ( with_brick(anna, interrupted(_)),
+                       brick_close(anna),
+                       print_message(silent, '$aborted'),
+                       \+ ev3dev_queries:stands(_) )).
+% Clean-ups do so before the abort is printed.
+test(a_wait_goes_on) :-
+    with_sim([], ( interrupted(_), ev3dev_native:view_held_,
+                   \+ ev3dev_waits:waited(pause),
+                   \+ ev3dev_native:view_held_ ), [clock(realtime)]).
 test(without_a_simulation) :-
     ( sim_stop -> true ; true ),
     print_message(silent, interrupt(begin)),
     print_message(silent, interrupt(end)).
+
+:- meta_predicate with_anna(+, 0).
+
+with_anna(Way, Goal) :-
+    setup_call_cleanup(
+        anna_begins(Way),
+        once(Goal),
+        forall(( member(Name, [anna, bob]), brick(Name) ), brick_close(Name))).
+
+anna_begins(apart) :-
+    brick_open(anna, sim([], [clock(realtime)])).
+anna_begins(crowd) :-
+    sim_start([start(anna, 0, 0, 0), start(bob, 0, 60, 180)],
+              [clock(realtime), robots([anna-default, bob-default])]).
 
 interrupted(Passed) :-
     print_message(silent, interrupt(begin)),

@@ -6,7 +6,8 @@
 :- use_module('../errors/frames', [program/1]).
 :- use_module('../native/native',
               [running_/1, view_held_/0, view_pause_/1]).
-:- use_module('../run/brick', [is_simulated/0]).
+:- use_module('../run/brick', [brick/1, in_brick/2, is_simulated/0]).
+:- use_module('../run/waits', []).
 
 /** <module> What is said around a query of the toplevel
 
@@ -20,6 +21,7 @@ another thread, or a program that ends says nothing.
 */
 
 :- multifile
+    ev3dev_waits:time_goes_on/0,
     why_failed/2,                       % Query, Message
     user:expand_query/4,
     user:message_hook/3,
@@ -28,11 +30,11 @@ another thread, or a program that ends says nothing.
     why_failed/2,
     user:expand_query/4,
     user:message_hook/3,
-    stands/0,                           % simulated time, in a menu
+    stands/1,                           % Brick, whose time stands, in a menu
     query/1,                            % the goal that runs
     said/2.                             % File, when it was changed
 :- volatile
-    stands/0,
+    stands/1,
     query/1,
     said/2.
 
@@ -109,15 +111,27 @@ menu(interrupt(begin)) :-
     (   is_simulated
     ->  \+ view_held_,
         view_pause_(true),
-        assertz(stands)
+        brick(Brick),
+        assertz(stands(Brick))
     ;   running_(Ports),
         Ports \== [],
         print_message(warning, ev3dev(go_on(Ports)))
     ).
 menu(_) :-
-    retract(stands),
-    is_simulated,
-    view_pause_(false).
+    menu_is_over.
+
+%   An abort has left with_brick/2 when it is printed, so that another brick
+%   is in use. The one whose time stands may have been closed.
+
+menu_is_over :-
+    retract(stands(Brick)),
+    catch(in_brick(Brick, ( is_simulated, view_pause_(false) )),
+          error(existence_error(brick, _), _), fail).
+
+%   Before it is printed, clean-ups may wait.
+ev3dev_waits:time_goes_on :-
+    thread_self(main),
+    menu_is_over.
 
 % ---------------- WHEN IT HAS ENDED
 

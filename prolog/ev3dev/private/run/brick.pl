@@ -200,7 +200,8 @@ must_be_new_names([]).
 must_be_new_names([Name|Names]) :-
     (   ( Name == local ; named(Name, _, _) ; memberchk(Name, Names) )
     ->  throw_error(permission_error(open, brick, Name), _,
-                    'there is a brick of that name; brick_close/1 closes it')
+                    'there is a brick of that name; brick_close/1 closes \c
+                     it, and sim_stop/0 all robots of sim_start/2')
     ;   must_be_new_names(Names)
     ).
 

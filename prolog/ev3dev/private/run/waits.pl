@@ -59,6 +59,8 @@ and a cut end them.
 waited(Reason) :-
     (   Reason == pause
     ->  no_guard,
+        % No tick is due while time stands.
+        ignore(time_goes_on),
         let_page_in,
         fail
     ;   Reason == tick
@@ -242,10 +244,16 @@ yield_if_possible :-
 %   Lets the page go on that Prolog runs in; if there is one, it adds the
 %   clause.
 
+%!  time_goes_on is semidet.
+%
+%   Between two slices of a wait: time that stood in a menu passes again. What
+%   prints around queries adds the clause.
+
 :- multifile
     page_turn/0,
     serve_events/0,
     serve_planned/0,
+    time_goes_on/0,
     yield/0.
 
 %!  let_page_in is det.
