@@ -258,6 +258,11 @@ caught(Ball, _) :-
 caught(_, Recovery) :-
     call(Recovery).
 
+:- multifile ev3dev_watched_run:ends_run/1.
+
+ev3dev_watched_run:ends_run(Ball) :-
+    ev3dev_playground_check:ends_run(Ball).
+
 ends_run(Ball) :-
     var(Ball),
     !,

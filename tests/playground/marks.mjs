@@ -44,7 +44,10 @@ function judge(what, found, isRight, expected) {
 /** In which goal of a loop a stack is full is chance. */
 const same = (text) => text.replace(/mine\.pl:\d+(?=: .* the stack of)/, 'mine.pl');
 
-async function compare(what, exercise, text) {
+/** A page forgets which goal was the last one when a program computes for long. */
+const unnamed = (text) => same(text).replace(/(mine\.pl:\d+: )?start failed(; its last goal was .*)?/, 'start failed');
+
+async function compare(what, exercise, text, alike = same) {
   const mine = path.join(modules, 'mine.pl');
   fs.writeFileSync(mine, text);
   const native = natively(path.resolve(folder, exercise), mine);
@@ -52,12 +55,12 @@ async function compare(what, exercise, text) {
   const found = inPage(exercise, text);
   const took = ((performance.now() - began) / 1000).toFixed(1);
   const expected = await native;
-  judge(`${what}: ${/Together.*/.exec(found)} (${took} s)`, found, same(found) === same(expected), expected);
+  judge(`${what}: ${/Together.*/.exec(found)} (${took} s)`, found, alike(found) === alike(expected), expected);
 }
 
 const folder = path.join(home, 'course');
 for (const exercise of named.length ? named : fs.readdirSync(folder)) {
-  for (const name of ['skeleton', 'solution']) await compare(`${exercise}, ${name}`, exercise, fs.readFileSync(path.join(folder, exercise, `${name}.pl`), 'utf8'));
+  for (const name of ['skeleton', 'solution']) await compare(`${exercise}, ${name}`, exercise, fs.readFileSync(path.join(folder, exercise, `${name}.pl`), 'utf8'), unnamed);
 }
 
 const HEAD = ':- use_module(library(ev3dev)).\n';

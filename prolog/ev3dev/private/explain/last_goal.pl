@@ -147,7 +147,10 @@ is_of_library(Called) :-
     (   predicate_property(Called, imported_from(Module))
     ->  \+ in_pack(Module:x/0, _, _),
         Module \== system
-    ;   \+ predicate_property(Called, defined)
+    ;   \+ predicate_property(Called, defined),
+        strip_module(Called, In, Head),
+        functor(Head, Name, Arity),
+        '$find_library'(In, Name, Arity, _, _)
     ).
 
 last_calls_are(Reused) :-

@@ -100,13 +100,20 @@ why(Format, Arguments) :-
     format(user_error, Format, Arguments),
     nl(user_error).
 
+%   A page ends a run by balls of its own.
+
+:- multifile ends_run/1.
+:- dynamic ends_run/1.
+
 said(true, Goal) :-
     timeless(Goal).
 said(false, Goal) :-
     said_by(ev3dev(failed(Goal))),
     timeless(Goal).
 said(thrown(Ball), Goal) :-
-    (   Ball == ev3dev_time_is_over
+    (   ends_run(Ball)
+    ->  throw(Ball)
+    ;   Ball == ev3dev_time_is_over
     ->  timeless(Goal),
         forall(endless(Text), why('~w', [Text]))
     ;   (   of_rule(Ball)
