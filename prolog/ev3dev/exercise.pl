@@ -188,7 +188,8 @@ here. All places are `X-Y` in cm.
 %   @error existence_error(program, bwrap) if programs are to be enclosed, and
 %          bubblewrap is not installed or may not be used
 %   @error permission_error(_, _, _) if nothing can be written into Directory
-%   @error domain_error(exercise, Fact) if something is wrong in Exercise
+%   @error domain_error(exercise, Fact) if something is wrong in Exercise, or
+%          it does not load without errors
 %   @error domain_error(exercise_option, Option)
 %   @error the errors of sim_batch/5
 

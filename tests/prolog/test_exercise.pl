@@ -497,6 +497,66 @@ test(a_misspelt_predicate_of_a_score, What-Text == [path_lenght/1, xyzzy/0]-Says
                                 "score(partial(1), x, S) :- findall(x, xyzzy, L), length(L, S)." ], File),
                   catch(exercise_mark(File, [], [], _),
                         error(domain_error(exercise, What), context(_, Text)), true) )).
+%   Nothing is marked in another world, or without a score.
+test(an_exercise_that_does_not_load,
+     [ forall(( member(Broken, [ "world(_, [start(0, 0, 90).", "score(1, 'far) :- fail.",
+                                 ":- use_module(nowhere)." ]),
+                member(Command, [try, mark, check]) )),
+       Told == 1 ]) :-
+    with_folder(( exercise_lines(Lines), append(Lines, [Broken], All), file(exercise, All, _),
+                  program(honest, _), said_by(Command, Said) )),
+    split_string(Said, "\n", "", Printed),
+    findall(Line, ( member(Line, Printed), wildcard_match("ERROR:*exercise.pl:9:*", Line) ), Errors),
+    length(Errors, Told),
+    assertion(occurrences("exercise.pl does not load without errors", Said, 1)),
+    assertion(\+ sub_string(Said, _, _, _, "points")).
+
+%   Each of these is used by nothing, or by a rule of the exercise.
+test(a_misspelt_fact_of_an_exercise,
+     [ forall(member(Line-Meant, [ "wrold(_, [start(0, 0, 90)])."-"wrold/2 (did you mean world/2?)",
+                                   "world(_)."-"world/1 (did you mean world/2?)",
+                                   "scor(1, far) :- fail."-"scor/2 (did you mean score/2?)",
+                                   "hapens(_)."-"hapens/1 (did you mean happens/1?)",
+                                   "forbidden(x/1)."-"forbidden/1 (did you mean forbid/1?)" ])),
+       What-Text == [Name/Arity]-Says ]) :-
+    split_string(Meant, "/ ", "", [Name0, Arity0|_]),
+    atom_string(Name, Name0),
+    number_string(Arity, Arity0),
+    atom_concat('line 9: nothing uses ', Meant, Says),
+    with_folder(( exercise_lines(Lines), append(Lines, [Line], All), file(exercise, All, File),
+                  catch(exercise_check(File), error(domain_error(exercise, What), context(_, Text)),
+                        true),
+                  program(honest, _), said_by(try, Said) )),
+    string_concat("Warning: exercise.pl: ", Says, Warning),
+    assertion(occurrences(Warning, Said, 1)),
+    assertion(sub_string(Said, _, _, _, "Together: 10 of 10 points")).
+test(a_helper_with_such_a_name_is_used, Found == []) :-
+    with_folder(( exercise_lines(Lines),
+                  append(Lines, [ "score(1, x) :- findall(C, scores(C), _).", "scores(C) :- member(C, [1]).",
+                                  "other(_)." ], All),
+                  file(exercise, All, File),
+                  ev3dev_marking_read:read_exercise(File, Read),
+                  findall(Names, ev3dev_marking_check:unused(Read, Names, _), Found) )).
+
+%   What a process of its own, in the folder, prints.
+said_by(Command, Said) :-
+    folder(Folder),
+    current_prolog_flag(executable, Prolog),
+    absolute_file_name('app/ev3dev.pl', App),
+    (   Command == check
+    ->  absolute_file_name(prolog, Library),
+        format(atom(Load), 'library=~w', [Library]),
+        Arguments = [ '-q', '-p', Load, '-g', 'use_module(library(ev3dev/exercise)),exercise_check(exercise)',
+                      '-t', halt ]
+    ;   Arguments = ['-q', App, Command, 'exercise.pl', 'honest.pl', '--seeds', '1']
+    ),
+    process_create(Prolog, Arguments,
+                   [ stdin(null), stdout(pipe(Out)), stderr(pipe(Err)), cwd(Folder), process(Pid) ]),
+    read_string(Out, _, Printed),
+    read_string(Err, _, Warned),
+    process_wait(Pid, _),
+    string_concat(Printed, Warned, Said).
+
 test(what_the_solution_misses, Found == ["far, with the seed 2", "never, with every seed"]) :-
     with_folder(( file(exercise, [ ":- use_module(library(ev3dev/exercise)).",
                                    "exercise(x, [seeds(1-2), seconds(5)]).",

@@ -15,14 +15,14 @@
 :- use_module('../files/directory', [directory_path/2]).
 :- use_module('../errors/errors',
               [domain_error/2, in_own_name/1, throw_error/3]).
-:- use_module(check, [check_exercise/1]).
+:- use_module(check, [check_exercise/1, unused/3]).
 :- use_module(kept, [keep_run/3, kept_run/3, with_kept_runs/4]).
 :- use_module(progress,
               [ progress_begins/3, progress_ends/1, progress_line/2,
                 runs_over/2 ]).
 :- use_module(read,
               [ exercise_seeds/3, exercise_setting/3, exercise_world/3,
-                forbidden/3, read_exercise/2, seed_list/2 ]).
+                forbidden/3, read_exercise/2, seed_list/2, wrong/2 ]).
 :- use_module(forms, [form/2]).
 :- use_module(participants, [read_participants/2, with_participants/4]).
 :- use_module(submissions, [can_be/2, own_submission/2, submissions/4]).
@@ -45,6 +45,7 @@ marked_run/4, or `not_run`; and the submission as of submissions/4.
 
 marks(Exercise0, Files, Options, Marks) :-
     exercise_to_mark(Exercise0, Exercise, Read),
+    warn_of_unused(Exercise, Read),
     seeds(Read, all, Options, Seeds),
     option(formats(Formats), Options, all),
     must_be_formats(Formats),
@@ -126,6 +127,14 @@ exercise_to_mark(Exercise0, Exercise, Read) :-
     read_exercise(Exercise, Read),
     check_exercise(Read).
 
+%   A helper may have such a name, so this stops the author alone.
+
+warn_of_unused(Exercise, Read) :-
+    (   unused(Read, _, Text)
+    ->  print_message(warning, ev3dev(unused(Exercise, Text)))
+    ;   true
+    ).
+
 prolog_file(File, Path) :-
     in_own_name(absolute_file_name(File, Path,
                                    [file_type(prolog), access(read)])).
@@ -152,6 +161,7 @@ tried(Exercise, File, Options) :-
 
 tried(Exercise0, File, Options, Marked) :-
     exercise_to_mark(Exercise0, Exercise, Read),
+    warn_of_unused(Exercise, Read),
     \+ has_own_world(Read, File, Options),
     printed(Exercise, Read, open, File, Options, Marked),
     (   earned_all(Marked)
@@ -185,6 +195,10 @@ has_own_world(Read, File, Options) :-
 
 check_solution(Exercise0, Options) :-
     exercise_to_mark(Exercise0, Exercise, Read),
+    (   unused(Read, Names, Text)
+    ->  wrong(Names, Text)
+    ;   true
+    ),
     exercise_setting(Read, solution(Solution), 'solution.pl'),
     file_directory_name(Exercise, Folder),
     directory_file_path(Folder, Solution, File),
@@ -346,6 +360,9 @@ prolog:message(ev3dev(not_enclosed)) -->
 
 prolog:message(ev3dev(not_marked(File, Why))) -->
     [ 'Not marked: ~w: ~w'-[File, Why] ].
+prolog:message(ev3dev(unused(Exercise, Text))) -->
+    { file_base_name(Exercise, Base) },
+    [ '~w: ~w'-[Base, Text] ].
 prolog:message(ev3dev(stranger(Name, List))) -->
     [ '~w is marked, but has no row in ~w'-[Name, List] ].
 

@@ -26,9 +26,15 @@ its file was loaded, and score(Points, Text, Head, Share) for each score, in
 the order of the file. A program is only read, never run.
 */
 
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+:- dynamic load_error/1.
+
 %!  read_exercise(+File, -Exercise) is det.
 %
-%   @error domain_error(exercise, What) with a sentence
+%   @error domain_error(exercise, What) with a sentence, as if File, or a file
+%          that it loads, has errors; each of these is printed
 
 read_exercise(File, exercise(Module, Name, Options, Scores)) :-
     atom_concat('exercise:', File, Module),
@@ -36,8 +42,15 @@ read_exercise(File, exercise(Module, Name, Options, Scores)) :-
     % When it is read again, that declaration is forgotten.
     setup_call_cleanup(
         style_check(-(discontiguous)),
-        in_own_name(load_files(Module:File, [if(true), silent(true)])),
+        loaded(Module:File, Errors),
         style_check(+(discontiguous))),
+    (   Errors == []
+    ->  true
+    ;   file_base_name(File, Loaded),
+        format(atom(Broken), '~w does not load without errors: \c
+                              correct them first', [Loaded]),
+        wrong(File, Broken)
+    ),
     findall(Found-Its,
             ( current_predicate(Module:exercise/2),
               call(Module:exercise(Found, Its)) ),
@@ -68,6 +81,19 @@ read_exercise(File, exercise(Module, Name, Options, Scores)) :-
     ->  wrong(score(Points, Text), 'points are numbers above 0')
     ;   true
     ).
+
+%   Errors has an `x` for each error that was printed meanwhile.
+
+loaded(Exercise, Errors) :-
+    retractall(load_error(_)),
+    setup_call_cleanup(
+        asserta((user:message_hook(_, error, _) :-
+                     assertz(ev3dev_marking_read:load_error(x)),
+                     fail),
+                Hook),
+        in_own_name(load_files(Exercise, [if(true), silent(true)])),
+        erase(Hook)),
+    findall(Error, retract(load_error(Error)), Errors).
 
 %!  wrong(+What, +Message)
 %
