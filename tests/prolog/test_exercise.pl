@@ -511,6 +511,37 @@ test(an_exercise_that_does_not_load,
     assertion(occurrences("exercise.pl does not load without errors", Said, 1)),
     assertion(\+ sub_string(Said, _, _, _, "points")).
 
+test(an_error_in_a_rule_has_its_line,
+     [ forall(member(Line-Says,
+           [ "world(_, [bound(0, 0, 200, 260)])."-"bound(0,0,200,260): a world has: *",
+             "world(_, X) :- X > 1."-"*sufficiently instantiated",
+             "happens(_) :- X > X."-"*sufficiently instantiated",
+             "score(1, x) :- collisions(_), M < M."-"*sufficiently instantiated",
+             "score(partial(1), x, _)."-"*sufficiently instantiated",
+             "score(1, x) :- ended_near(corner, D), D < 1."-"ended_near/2: a place must be X-Y, not corner" ])),
+       true(wildcard_match(Pattern, Text)) ]) :-
+    atom_concat('exercise.pl:3: ', Says, Pattern),
+    with_folder(( file(exercise, [ ":- use_module(library(ev3dev/exercise)).",
+                                   "exercise(x, [seeds(1), seconds(5)]).", Line,
+                                   "score(1, drives) :- path_length(Cm), Cm > 10." ], _),
+                  program(honest, File),
+                  catch(mark_files([File], [], _), error(_, context(_, Text)), true) )).
+test(a_wrong_option_is_named,
+     [ forall(member(Option-Says, [ "second(90)"-"second(90) is not one of: goal, seconds, *Did you mean seconds?",
+                                    "seeds(4-1)"-"the value of the option seeds(4-1) makes no sense",
+                                    "x"-"x is not one of: goal, *", "_"-"_ is not one of: goal, *" ])),
+       true(wildcard_match(Says, Text)) ]) :-
+    format(string(Line), "exercise(x, [noise(true), ~w]).", [Option]),
+    with_folder(( file(wrong, [Line, "score(1, x)."], File),
+                  catch(exercise_mark(File, [], [], _), error(_, context(_, Text)), true) )).
+test(wrong_seeds, true(wildcard_match("seeds must be *", Text))) :-
+    catch(mark_wrongly(seeds(5-3)), error(domain_error(seeds, 5-3), context(_, Text)), true).
+test(wrong_format, true(wildcard_match("pdf is not one of: html, *csv*", Text))) :-
+    catch(mark_wrongly(formats([pdf])), error(domain_error(marks_format, pdf), context(_, Text)), true).
+
+mark_wrongly(Option) :-
+    with_folder(mark_files([], [Option], _)).
+
 %   Each of these is used by nothing, or by a rule of the exercise.
 test(a_misspelt_fact_of_an_exercise,
      [ forall(member(Line-Meant, [ "wrold(_, [start(0, 0, 90)])."-"wrold/2 (did you mean world/2?)",

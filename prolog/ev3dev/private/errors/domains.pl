@@ -127,6 +127,9 @@ allowed(sensor_condition,
           'touch(Port) = pressed', released, bumped ]).
 allowed(sensor_value_index,
         'the index of a value must be an integer from 0 to 7').
+allowed(seeds,
+        'seeds must be a whole number, a list of them, or From-To with \c
+         From not above To').
 allowed(side,               [left, right]).
 allowed(simulator_snapshot, 'a snapshot must come from sim_snapshot/1').
 allowed(stopwatch,          'a stopwatch must come from stopwatch/1').

@@ -81,10 +81,13 @@ must_be_formats(all) :-
     !.
 must_be_formats(Formats) :-
     must_be(list, Formats),
+    findall(Form, form(Form, _), Forms),
+    Known = [html, gradescope|Forms],
     forall(member(Format, Formats),
-           (   ( memberchk(Format, [html, gradescope]) ; form(Format, _) )
+           (   memberchk(Format, Known)
            ->  true
-           ;   domain_error(marks_format, Format)
+           ;   throw_error(domain_error(marks_format, Format), _,
+                           one_of(Format, Known))
            )).
 
 %   Submissions are those of Files, and a refused one for each participant who
@@ -508,9 +511,11 @@ results_come(Jobs, Batch, Done0, Done) :-
 result_of(Score, Result) :-
     (   Score = result(ended: _)
     ->  Result = Score
+    ;   Score = wrong(What, context(_, Text))
+    ->  wrong(What, Text)
     ;   Score = error(Message),
         Message \== died
-    ->  throw(error(system_error(Message), _))
+    ->  throw_error(system_error(Message), _, Message)
     ;   Result = result(lost, 0, none,
                         'This run was lost: its process has ended.', '', [],
                         [], [])
@@ -533,7 +538,9 @@ write_batch(File, Jobs, Exercise-Text, Programs, Enclosed) :-
               ( marked(Job, Result) :-
                     job(Job, Program0, Seed0),
                     program(Program0, Files),
-                    marked_run(Files, Seed0, Enclosed, Result) )) ),
+                    catch(marked_run(Files, Seed0, Enclosed, Result),
+                          error(domain_error(exercise, What), Context),
+                          Result = wrong(What, Context)) )) ),
         close(Out)).
 
 write_term_line(Out, Term) :-

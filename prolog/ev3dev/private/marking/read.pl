@@ -8,12 +8,16 @@
             score_shares/2,             % +Exercise, -Shares
             forbidden/3,                % +Exercise, +Terms, -Reason
             wrong/2,                    % +What, +Message
+            wrong_rule/2,               % +Rule, +Text
             program_terms/2             % +Text, -Terms
           ]).
 :- use_module('../errors/errors', [in_own_name/1, throw_error/3]).
+:- use_module('../errors/message_text', [message_text/2]).
 :- use_module('../simulation/thinking_rate', [thinking_rate/2]).
 :- use_module(library(lists),
               [append/3, member/2, numlist/3]).
+
+:- meta_predicate in_rule(+, 0).
 
 % The operators of library(ev3dev/rules)
 :- op(1160, xfx, ::).
@@ -63,12 +67,16 @@ read_exercise(File, exercise(Module, Name, Options, Scores)) :-
         wrong(File, Says)
     ),
     (   is_list(Options),
-        member(wall(Seconds), Options)
+        member(Old, Options),
+        nonvar(Old),
+        Old = wall(Seconds)
     ->  wrong(wall(Seconds), 'this limit is called sleep(Seconds) now')
-    ;   is_list(Options),
-        \+ ( member(Option, Options), \+ good(Option) )
-    ->  true
-    ;   wrong(Options, 'an option is unknown, or its value makes no sense')
+    ;   \+ is_list(Options)
+    ->  wrong(Options, 'its options are no list')
+    ;   member(Option, Options),
+        \+ ( nonvar(Option), good(Option) )
+    ->  wrong_option(Option, Options)
+    ;   true
     ),
     findall(Line-score(Points, Text, Head, Share),
             a_score(Module, Line, Points, Text, Head, Share), Found0),
@@ -101,6 +109,19 @@ loaded(Exercise, Errors) :-
 
 wrong(What, Message) :-
     throw_error(domain_error(exercise, What), _, Message).
+
+wrong_option(Option, Options) :-
+    (   callable(Option),
+        functor(Option, Name, 1),
+        functor(Known, Name, 1),
+        clause(good(Known), _)
+    ->  format(atom(Text), 'the value of the option ~q makes no sense',
+               [Option]),
+        wrong(Options, Text)
+    ;   findall(Name,
+                ( clause(good(Known), _), functor(Known, Name, 1) ), Names),
+        wrong(Options, one_of(Option, Names))
+    ).
 
 good(goal(Goal)) :- callable(Goal).
 good(seconds(N)) :- number(N), N > 0.
@@ -179,7 +200,8 @@ seed_list([Seed|Seeds], [Seed|Seeds]) :-
 exercise_world(exercise(Module, _, _, _), Seed, World) :-
     (   \+ current_predicate(Module:world/2)
     ->  World = room
-    ;   call(Module:world(Seed, World))
+    ;   Rule = Module:world(Seed, World),
+        in_rule(Rule, Rule)
     ->  true
     ;   wrong(world(Seed, _), 'it has no world for this seed')
     ).
@@ -190,14 +212,15 @@ exercise_world(exercise(Module, _, _, _), Seed, World) :-
 
 exercise_happens(exercise(Module, _, _, _), Seed) :-
     (   current_predicate(Module:happens/1)
-    ->  ignore(call(Module:happens(Seed)))
+    ->  Rule = Module:happens(Seed),
+        ignore(in_rule(Rule, Rule))
     ;   true
     ).
 
 %!  score_shares(+Exercise, -Shares) is det.
 %
 %   The shares, from 0 to 1, of the scores of the run that is recorded. An
-%   error in a score goes through.
+%   error in a score goes through, with its line.
 
 score_shares(exercise(_, _, _, Scores), Shares) :-
     shares(Scores, Shares).
@@ -205,11 +228,34 @@ score_shares(exercise(_, _, _, Scores), Shares) :-
 shares([], []).
 shares([score(_, _, Head, Share)|Scores], [Earned|Shares]) :-
     copy_term(Head-Share, Goal-Found),
-    (   call(Goal)
-    ->  Earned is max(0, min(1, Found))
-    ;   Earned = 0
-    ),
+    in_rule(Goal,
+            (   call(Goal)
+            ->  Earned is max(0, min(1, Found))
+            ;   Earned = 0
+            )),
     shares(Scores, Shares).
+
+%   An error in a rule of the exercise says at which line the rule is.
+
+in_rule(Rule, Goal) :-
+    catch(Goal, error(Formal, Context),
+          ( message_text(error(Formal, Context), Text),
+            wrong_rule(Rule, Text) )).
+
+%!  wrong_rule(+Rule, +Text)
+%
+%   Throws domain_error(exercise, Head) with Text, after the file and the line
+%   of the first clause for Rule, which is Module:Head.
+
+wrong_rule(Module:Head, Text) :-
+    (   clause(Module:Head, _, Clause),
+        clause_property(Clause, file(File)),
+        clause_property(Clause, line_count(Line))
+    ->  file_base_name(File, Base),
+        format(atom(Message), '~w:~d: ~w', [Base, Line, Text])
+    ;   Message = Text
+    ),
+    wrong(Head, Message).
 
 %!  forbidden(+Exercise, +Terms, -Reason) is semidet.
 %

@@ -7,7 +7,7 @@
           ]).
 :- use_module(read,
               [ exercise_happens/2, exercise_setting/3, exercise_world/3,
-                read_exercise/2, score_shares/2 ]).
+                read_exercise/2, score_shares/2, wrong_rule/2 ]).
 :- use_module(reasons, [reason/6]).
 :- use_module(record,
               [record_end/3, recorded/4, run_fact/1, with_record/4]).
@@ -139,14 +139,32 @@ fenced_run(Exercise-Salt, [Name-Text|Others], Goal, Seed, Enclosed,
                   Beside),
           forall(member(Path-Bytes, [Name-Text|Others]),
                  or_lost(write_program(Directory, Path, Bytes))),
-          with_sim(World,
-                   ( exercise_happens(Exercise, Seed),
-                     with_record(or_lost(sim_fenced(File, Ended, Options)),
-                                 Seed, World, Robot),
-                     record_end(Ended, Output, Lines) ),
-                   [ clock(virtual), seed(Seed), noise(Noise),
-                     robot(Robot) ]) ),
+          catch(
+              with_sim(World,
+                  ( exercise_happens(Exercise, Seed),
+                    with_record(or_lost(sim_fenced(File, Ended, Options)),
+                                Seed, World, Robot),
+                    record_end(Ended, Output, Lines) ),
+                  [ clock(virtual), seed(Seed), noise(Noise),
+                    robot(Robot) ]),
+              error(Formal, Context),
+              wrong_world(Exercise, Seed, World, error(Formal, Context))) ),
         end_workplace(Directory)).
+
+%   If the world alone has an error, it is the exercise's rule that is wrong.
+
+wrong_world(exercise(Module, _, _, _), Seed, World, Error) :-
+    catch(with_sim(World, true, [clock(virtual)]), error(Formal, Context),
+          true),
+    (   nonvar(Formal),
+        Context = context(_, Text0)
+    ->  (   Formal = domain_error(_, Fact)
+        ->  format(atom(Text), '~q: ~w', [Fact, Text0])
+        ;   Text = Text0
+        ),
+        wrong_rule(Module:world(Seed, _), Text)
+    ;   throw(Error)
+    ).
 
 write_program(Directory, Path, Bytes) :-
     directory_file_path(Directory, Path, File),
