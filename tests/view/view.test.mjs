@@ -1620,7 +1620,9 @@ group('a program that prints without end', ROOM, 'goals(true)', (it) => {
     const rows = await it.page.$$eval('#log li', (all) => all.map((row) => row.innerText.trim()));
     assert.equal(rows[0], 'The log shows the last 300 lines. Earlier ones are left out.');
     assert.equal(rows.length, 301);
-    assert.ok(rows.some((row) => /^\d+ lines are left out here\.$/.test(row)), rows.join('|'));
+    // A busy machine sends more frames, and then none is left out.
+    const whole = rows.slice(1).every((row, i) => row.endsWith(String(151 + i)));
+    assert.ok(whole || rows.some((row) => /^\d+ lines are left out here\.$/.test(row)), rows.join('|'));
   });
 
   test('has a log that follows its end, though it was not displayed meanwhile', async () => {
