@@ -171,9 +171,9 @@ time_is_up :-
 
 program(File, Goal, Status) :-
     load_files(user:File, []),
-    ( retract(overdone(Most)) -> throw(ev3dev_endless(Most)) ; true ),
+    must_be_within,
     catch(( bounded(user:Goal) -> Why = none ; Why = failed ), Why, true),
-    ( retract(overdone(Most)) -> throw(ev3dev_endless(Most)) ; true ),
+    must_be_within,
     (   Why == none
     ->  Status = 0
     ;   ends_run(Why)
@@ -181,6 +181,12 @@ program(File, Goal, Status) :-
     ;   format(atom(Text), "~q", [Goal]),
         print_message(error, init_goal_failed(Why, Text)),
         ( Why == failed -> Status = 1 ; Status = 2 )
+    ).
+
+must_be_within :-
+    (   retract(overdone(Most))
+    ->  throw(ev3dev_endless(Most))
+    ;   true
     ).
 
 %   Prolog catches what a directive throws, so each has a limit of its own, as

@@ -4,15 +4,15 @@ use std::io;
 use std::os::fd::AsRawFd as _;
 use std::path::Path;
 
-/// The bytes of a path that fit into the address of a socket in each system: 108 and a zero in
-/// Linux, 104 in BSD.
+/// The bytes of a path that fit into the address of a socket in each system: with a zero at their
+/// end 108 in Linux, 104 in BSD.
 const FITS: usize = 100;
 
 /// Calls `act` with a path of the same file that fits into the address of a socket. A long one
 /// goes by the folder's descriptor, as folders for temporary files may be deep.
 ///
 /// # Errors
-/// That of `act`, or of opening the folder.
+/// `act` fails, or the folder cannot be opened.
 pub fn with_address<T>(path: &Path, act: impl FnOnce(&Path) -> io::Result<T>) -> io::Result<T> {
     match (path.parent(), path.file_name()) {
         (Some(folder), Some(name)) if path.as_os_str().len() > FITS => {

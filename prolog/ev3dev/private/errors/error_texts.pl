@@ -6,6 +6,7 @@
             shown/2,                    % +Term, -Shown
             clause_place/2,             % +Clause, -Place
             place_text/2,               % +Place, -Text
+            place_first/2,              % +Place, -Text
             is_word/1,                  % +Atom
             nth/2                       % +Place, -Nth
           ]).
@@ -168,9 +169,10 @@ quoted([Value|Values], [Atom|Atoms]) :-
 
 %!  clause_place(+Clause, -Place) is det.
 %!  place_text(+Place, -Text) is det.
+%!  place_first(+Place, -Text) is det.
 %
 %   Place is the File:Line of a Clause, or `none`. Text names it after what is
-%   there, without the folder, or is empty.
+%   there, or before it, without the folder, or is empty.
 
 clause_place(Clause, Place) :-
     (   clause_property(Clause, file(File)),
@@ -183,6 +185,11 @@ place_text(none, '').
 place_text(File:Line, Text) :-
     file_base_name(File, Base),
     format(atom(Text), ' (~w:~w)', [Base, Line]).
+
+place_first(none, '').
+place_first(File:Line, Text) :-
+    file_base_name(File, Base),
+    format(atom(Text), '~w:~w: ', [Base, Line]).
 
 %!  shown(+Term, -Shown) is det.
 %

@@ -4,7 +4,8 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(last_goal, [outcome/2, watched/4]).
 :- use_module('../basics/small_lists', [append_lists/3, one_of/2]).
-:- use_module('../errors/error_texts', [shown/2]).
+:- use_module('../errors/error_texts',
+              [clause_place/2, place_first/2, shown/2]).
 :- use_module('../errors/frames', [program/1]).
 :- use_module('../errors/message_text', [message_text/2]).
 :- use_module('../native/native', [now_/1]).
@@ -200,15 +201,10 @@ place_of(Called, Place) :-
         Called = _:Plain,
         functor(Plain, Name, Arity)
     ),
-    clause_place(Clause, Place),
-    !.
+    clause_place(Clause, Where),
+    !,
+    place_first(Where, Place).
 place_of(_, '').
-
-clause_place(Clause, Place) :-
-    clause_property(Clause, file(Path)),
-    clause_property(Clause, line_count(Line)),
-    file_base_name(Path, File),
-    format(atom(Place), '~w:~d: ', [File, Line]).
 
 %   What has no place in an exercise: a simulation of its own.
 

@@ -11,6 +11,7 @@
             wrong_rule/2,               % +Rule, +Text
             program_terms/2             % +Text, -Terms
           ]).
+:- use_module('../errors/error_texts', [clause_place/2, place_first/2]).
 :- use_module('../errors/errors', [in_own_name/1, throw_error/3]).
 :- use_module('../errors/message_text', [message_text/2]).
 :- use_module('../simulation/thinking_rate', [thinking_rate/2]).
@@ -248,13 +249,12 @@ in_rule(Rule, Goal) :-
 %   of the first clause for Rule, which is Module:Head.
 
 wrong_rule(Module:Head, Text) :-
-    (   clause(Module:Head, _, Clause),
-        clause_property(Clause, file(File)),
-        clause_property(Clause, line_count(Line))
-    ->  file_base_name(File, Base),
-        format(atom(Message), '~w:~d: ~w', [Base, Line, Text])
-    ;   Message = Text
+    (   clause(Module:Head, _, Clause)
+    ->  clause_place(Clause, Place)
+    ;   Place = none
     ),
+    place_first(Place, At),
+    atom_concat(At, Text, Message),
     wrong(Head, Message).
 
 %!  forbidden(+Exercise, +Terms, -Reason) is semidet.
