@@ -54,6 +54,16 @@ paged(Page, Goal) :-
 film(Frame, Film) :-
     split_string(Frame.have, ".", "", [Film|_]).
 
+marks_stand_after_commands(Page) :-
+    page_ask(Page, "next", First),
+    forall(( between(1, 20, _), member(Color, [red, green]) ),
+           ( led(left, Color), view_mark(Color) )),
+    frame(Page, First.have, Frame),
+    findall(Kind, ( member(Line, Frame.log), Kind = Line.kind ), Kinds),
+    findall(Kind, ( between(1, 40, _), member(Kind, ["command", "mark"]) ),
+            Expected),
+    Kinds == Expected.
+
 %   In one world, where they look at each other, and the page of both
 two_robots(Page, Goal) :-
     paged(Page,
@@ -601,6 +611,19 @@ test(commands_in_words, true(Texts == Expected)) :-
     Expected = [ "outA runs at 30 %", "outA was turned by 360 degrees at 50 %",
                  "the robot goes 5 cm at 30 %", "the robot stands still (reached)",
                  "the light left is green" ].
+% Two threads write the log: what one takes from the journal stands before what
+% the other writes next.
+test(a_mark_stands_after_the_command_before_it) :-
+    paged(Page,
+          ( sim_start(room, [clock(realtime)]),
+            thread_create(( repeat,
+                            ev3dev_view_log:log_commands(false),
+                            fail ),
+                          Other),
+            call_cleanup(forall(between(1, 10, _),
+                                marks_stand_after_commands(Page)),
+                         ( thread_signal(Other, throw(over)),
+                           thread_join(Other, _) )) )).
 test(numbers_are_short, true(Numbers == [0.3, -0.05, 2, null, 0.333333])) :-
     paged(Page,
           ( page_ask(Page, "next", First),

@@ -191,7 +191,9 @@ export async function shows(page, test, what) {
     last = await state(page);
     return last && test(last) ? last : null;
   }, what).catch((error) => {
-    throw new Error(`${error.message}; last: ${JSON.stringify({ ...last, world: undefined })}`);
+    const { log, ...rest } = last ?? {};
+    // The log comes first: a summary shows the begin of a long line.
+    throw new Error(`${error.message}; last: ${JSON.stringify({ log: log?.slice(-4), ...rest, world: undefined })}`);
   });
 }
 

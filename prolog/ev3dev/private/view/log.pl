@@ -92,10 +92,12 @@ note(Kind, Text) :-
 note(Kind, Text, About) :-
     thread_name(Thread),
     (   memberchk(Kind, [answer, error, stop])
-    ->  log_commands(true)
-    ;   log_commands(false)
+    ->  Ended = true
+    ;   Ended = false
     ),
-    view_log_(now, Kind, Text, [], About, Thread).
+    with_mutex(ev3dev_view_log,
+               ( log_commands(Ended),
+                 view_log_(now, Kind, Text, [], About, Thread) )).
 
 thread_name(page) :-
     view_serves_,
@@ -136,9 +138,13 @@ mark(Term) :-
 %!  log_commands(+Ended) is det.
 %
 %   Add what the program has commanded and printed meanwhile. Asks no device.
-%   The beginning of a line is held back, unless Ended.
+%   The beginning of a line is held back, unless Ended. What one thread has
+%   taken stands in the log before another one adds to it.
 
 log_commands(Ended) :-
+    with_mutex(ev3dev_view_log, log_new(Ended)).
+
+log_new(Ended) :-
     journal_new_(Done),
     view_printed_(Ended, Times, Texts),
     log_each(Done, Times, Texts).
