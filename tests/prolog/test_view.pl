@@ -1060,6 +1060,33 @@ test(a_program_that_begins_is_stopped) :-
           frame_with(Page, Frame, ended(Frame), 5000),
           query(Top, "writeln(alive), flush_output."),
           printed(Top, "alive") )).
+% The first STOP still waits for the end of a thread that tidies up.
+test(the_next_program_is_stopped_while_the_first_stop_is_under_way) :-
+    tmp_file(tidy, Tidy),
+    with_toplevel(Top,
+        ( Top = top(_, _, Page),
+          format(string(Slow),
+                 "thread_create(setup_call_cleanup( \c
+                      motor_run(outA, 5), \c
+                      ( writeln(slow), flush_output, repeat, sleep(0.01), fail ), \c
+                      ( repeat, sleep(0.01), exists_file(~q) )), _, []).",
+                 [Tidy]),
+          query(Top, Slow),
+          printed(Top, "slow"),
+          forall(member(Program, [first, second]),
+                 ( format(string(Goal),
+                          "writeln(~w), flush_output, repeat, sleep(0.01), fail.",
+                          [Program]),
+                   query(Top, Goal),
+                   printed(Top, Program),
+                   page_ask(Page, "stop", _) )),
+          setup_call_cleanup(
+              ( open(Tidy, write, Out), close(Out) ),
+              frame_with(Page, Last, ended(Last), 5000),
+              delete_file(Tidy)),
+          query(Top, "view_mark(alive)."),
+          frame_with(Page, Frame,
+                     ( member(Line, Frame.log), Line.text == "alive" ), 500) )).
 test(a_request_stops_the_program, true(Code == 200)) :-
     with_toplevel(Top,
         ( Top = top(_, _, Page),

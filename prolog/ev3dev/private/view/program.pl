@@ -34,6 +34,7 @@ stopped/0 when it has ended.
 :- dynamic
     queries/1,                          % how many there were
     stopping/1,                         % the thread that does it
+    pressed/0,                          % STOP, while a thread does it
     asked/1,                            % a thread that is to be interrupted
     part/1,                             % a thread with a goal of a page
     next_probe/2,                       % Time, Pause
@@ -232,9 +233,12 @@ stop_motors.
 
 begin_to_stop :-
     is_stopping,
-    !.
+    !,
+    retractall(pressed),
+    assertz(pressed).
 begin_to_stop :-
     retractall(stopping(_)),
+    retractall(pressed),
     (   current_prolog_flag(threads, true)
     ->  thread_create(interrupt, Thread, [detached(true)]),
         assertz(stopping(Thread))
@@ -259,6 +263,20 @@ stopped :-
 interrupt :-
     view_thread,
     thread_self(Me),
+    between(1, inf, Round),
+    interrupt_users(Me-Round),
+    with_mutex(ev3dev_view_stop, is_over(Me)),
+    !.
+
+%   Another program may have begun meanwhile, and STOP was pressed again.
+is_over(Me) :-
+    (   retract(pressed)
+    ->  fail
+    ;   retractall(stopping(Me)),
+        view_lift_
+    ).
+
+interrupt_users(Me) :-
     view_users_(Users0),
     delete(Users0, 1, Users),
     retractall(asked(_)),
@@ -272,23 +290,24 @@ interrupt :-
     until_ended(Answer, Me),
     forall(member(User, Users),
            until_over(User, 0.02)),
-    stop_motors,
-    with_mutex(ev3dev_view_stop,
-               ( retractall(stopping(Me)),
-                 view_lift_ )).
+    stop_motors.
 
 send_signal(Thread, Goal) :-
     catch(thread_signal(Thread, Goal), _, fail).
 
 %   asked_main(+Question, +Seconds, +Me, -Answer): the main thread calls
-%   Question as a signal, which answers. A signal that comes just before a
-%   thread begins to read or to wait in the kernel is seen after that only, so
-%   it is sent again, ever more seldom. Only the first one of interrupted/1
-%   that is seen counts. Answer is `ended` if there is no such thread.
+%   Question as a signal, which answers Me, a thread and the number of its
+%   round, as answers to former rounds may still come. A signal that comes just
+%   before a thread begins to read or to wait in the kernel is seen after that
+%   only, so it is sent again, ever more seldom. Only the first one of
+%   interrupted/1 that is seen counts. Answer is `ended` if there is no such
+%   thread.
 asked_main(Question, Seconds, Me, Answer) :-
     (   \+ send_signal(main, ev3dev_view_program:Question)
     ->  Answer = ended
-    ;   thread_get_message(Me, answer(Answer0), [timeout(Seconds)])
+    ;   Me = Thread-Round,
+        thread_get_message(Thread, answer(Round, Answer0),
+                           [timeout(Seconds)])
     ->  Answer = Answer0
     ;   Question = ended_since(_, _),
         main_state(idle)
@@ -301,7 +320,7 @@ asked_main(Question, Seconds, Me, Answer) :-
 interrupted(Stopper) :-
     (   \+ retract(asked(main))
     ->  true
-    ;   reads_query
+    ;   at_prompt
     ->  answer(Stopper, ended)
     ;   queries(Count),
         set_state(running),
@@ -315,8 +334,13 @@ interrupted_thread(Me) :-
     ;   true
     ).
 
+%   Another query may begin before the stopper gets the answer.
+at_prompt :-
+    reads_query,
+    set_state(idle).
+
 ended_since(Count0, Stopper) :-
-    (   reads_query
+    (   at_prompt
     ->  Answer = ended
     ;   queries(Count),
         Count =\= Count0
@@ -325,13 +349,12 @@ ended_since(Count0, Stopper) :-
     ),
     answer(Stopper, Answer).
 
-answer(Stopper, Answer) :-
-    catch(thread_send_message(Stopper, answer(Answer)), _, true).
+answer(Stopper-Round, Answer) :-
+    catch(thread_send_message(Stopper, answer(Round, Answer)), _, true).
 
 %   While the cleanup of the program goes on, ask again. The toplevel says
 %   that a query was aborted before it reads the next one.
-until_ended(ended, _) :-
-    set_state(idle).
+until_ended(ended, _).
 until_ended(interrupted(Count), Me) :-
     sleep(0.02),
     (   main_state(idle)
