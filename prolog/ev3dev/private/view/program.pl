@@ -297,18 +297,17 @@ send_signal(Thread, Goal) :-
 
 %   asked_main(+Question, +Seconds, +Me, -Answer): the main thread calls
 %   Question as a signal, which answers Me, a thread and the number of its
-%   round, as answers to former rounds may still come. A signal that comes just
-%   before a thread begins to read or to wait in the kernel is seen after that
-%   only, so it is sent again, ever more seldom. Only the first one of
+%   round, as answers to former rounds may still come. A signal that comes
+%   just before a thread begins to read or to wait in the kernel is seen after
+%   that only, so it is sent again, ever more seldom. Only the first one of
 %   interrupted/1 that is seen counts. Answer is `ended` if there is no such
 %   thread.
 asked_main(Question, Seconds, Me, Answer) :-
     (   \+ send_signal(main, ev3dev_view_program:Question)
     ->  Answer = ended
     ;   Me = Thread-Round,
-        thread_get_message(Thread, answer(Round, Answer0),
-                           [timeout(Seconds)])
-    ->  Answer = Answer0
+        thread_get_message(Thread, answer(Round, Said), [timeout(Seconds)])
+    ->  Answer = Said
     ;   Question = ended_since(_, _),
         main_state(idle)
     ->  Answer = ended
