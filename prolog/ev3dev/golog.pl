@@ -51,10 +51,11 @@
 :- use_module(private/golog/values, [fluent_value/4]).
 :- use_module(private/golog/messages, []).
 :- use_module(private/golog/run,
-              [ recorded_history/1, run_online/5, situation_of_run/4,
-                state_of_run/3
+              [ reason_place/3, recorded_history/1, run_online/5,
+                situation_of_run/4, state_of_run/3
               ]).
 :- use_module(private/golog/search, [found_path/4]).
+:- use_module(private/golog/name_checks, []).
 :- use_module(private/golog/step_checks, []).
 :- use_module(private/golog/steps, [sorted_steps/2]).
 :- use_module(private/golog/theory,
@@ -64,7 +65,8 @@
 :- use_module(private/golog/transitions,
               [is_final/3, program_shown/2, run/5, step/5]).
 :- use_module(private/golog/no_plan, [no_plan/5]).
-:- use_module(private/golog/why_not, [fluent_why/5, hindrance/5]).
+:- use_module(private/golog/why_not,
+              [fluent_why/5, hindrance/5, more_words/4, undeclared_words/4]).
 :- use_module(private/golog/world,
               [ ask/2, code_of_number/3, run_directly/4, send_exogenous/2 ]).
 
@@ -203,7 +205,8 @@ order and in several files.
 %          no construct, procedure or action
 %   @error existence_error(golog_precondition, Name/Arity) if there is no
 %          poss/2 for an action
-%   @error existence_error(golog_condition, Name/Arity)
+%   @error existence_error(golog_condition, Name/Arity), also of the predicate
+%          of a sort
 %   @error existence_error(golog_agent, Agent) if a clause is about an agent
 %          that agent/1 does not declare, or existence_error(golog_action,
 %          Name/Arity) if together/2, excludes/2, agent_of/2 or
@@ -237,13 +240,14 @@ golog_in(M0, Program0, Options) :-
     ->  History0 = History
     ;   true
     ),
-    ended(Result, Reason0, Reason).
+    ended(Result, Reason0, Reason, M).
 
-ended(given, Reason, Reason).
-ended(asked, Reason0, _) :-
+ended(given, Reason, Reason, _).
+ended(asked, Reason0, _, M) :-
     (   Reason0 == final
     ->  true
-    ;   print_message(help, golog(not_ended(Reason0))),
+    ;   reason_place(Reason0, M, Where),
+        print_message(help, golog(not_ended(Where, Reason0))),
         fail
     ).
 
@@ -513,11 +517,12 @@ now(History) :-
 %   whether Action is possible at the beginning. Why is one of
 %
 %     - no_action
-%       The domain has no such action.
+%       The domain has no such action, or not with these arguments.
 %     - not_possible(Failures)
-%       For each clause of poss/2 a failure(Part, Values, Place): the part of
-%       the condition that does not hold, the possible values of the fluents
-%       in it as Fluent = Value, and File:Line of the clause, or `none`.
+%       For each clause of poss/2 for Action a failure(Part, Values, Place):
+%       the goal of the clause's body, or else the part of the condition, that
+%       does not hold; the possible values of the fluents in it as Fluent =
+%       Value; and File:Line of the clause, or `none`.
 %     - priority(Other, Interrupts)
 %       A part of the program with a higher priority does Other. Interrupts
 %       are the conditions of the interrupts around it, the innermost first.
@@ -557,8 +562,9 @@ now(History) :-
 
 why_not(M:Action) :-
     (   why_not(M:Action, Why)
-    ->  print_message(help, golog(why_not(Action, Why)))
-    ;   print_message(help, golog(why_not(Action, nothing)))
+    ->  more_words(Why, Action, M, More),
+        print_message(help, golog(why_not(Action, Why, More)))
+    ;   print_message(help, golog(why_not(Action, nothing, '')))
     ).
 
 why_not(M:Action0, Why) :-
@@ -589,6 +595,18 @@ ev3dev_causes:explained(F, Why, golog(why(F, Why))) :-
     recorded_history(History),
     fluent_why(F, History, Why, S, X),
     !.
+
+:- multifile ev3dev_causes:misspelt/2.
+
+ev3dev_causes:misspelt(F, Text) :-
+    state_of_run(M, _, _),
+    callable(F),
+    undeclared_words(fluent, F, M, More),
+    (   compound(F)
+    ->  true
+    ;   sub_atom(More, 0, _, _, '. Did you')
+    ),
+    format(atom(Text), 'there is no fluent ~p~w', [F, More]).
 
 % ---------------- FOR DOMAINS
 

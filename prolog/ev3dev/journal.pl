@@ -9,13 +9,16 @@
 :- use_module(private/load/compiled, []).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(private/checks/checks, [must_be/2, must_be_goal/1]).
-:- use_module(private/errors/errors, [existence_error/2, in_own_name/1]).
+:- use_module(private/errors/error_texts, [is_word/1]).
+:- use_module(private/errors/errors,
+              [existence_error/2, in_own_name/1, throw_error/3]).
 :- use_module(private/errors/frames, [goal_of_program/1]).
 :- use_module(private/errors/public_clauses, [term_expansion/4]).
 :- use_module(private/files/directory, [readable_file/3, write_file/2]).
 :- use_module(private/explain/hints, [fail_because/1]).
 :- use_module(private/checks/arguments, [word/2]).
-:- use_module(private/journal/causes, [acting_for/2, causes/2, explained/3]).
+:- use_module(private/journal/causes,
+              [acting_for/2, causes/2, explained/3, misspelt/2]).
 :- use_module(private/files/facts, [throw_located/3]).
 :- use_module(private/devices/robot_state, [robot/4, robot_description/1]).
 :- use_module(private/journal/journal_words, [why_words//3]).
@@ -86,6 +89,8 @@ why_at(What0, Until) :-
         nonvar(What0),
         explained(What0, _, Message)
     ->  print_message(help, Message)
+    ;   is_misspelt(What0, Text)
+    ->  print_message(help, ev3dev(why_misspelt(Text)))
     ;   word(What0, What),
         (   why_(What, Until, Why, Last)
         ->  stopped_with(What, Last, Ports),
@@ -93,6 +98,18 @@ why_at(What0, Until) :-
         ;   print_message(help, ev3dev(why_nothing(What)))
         )
     ).
+
+%   Nothing was commanded to What, and a library knows what may be meant.
+
+is_misspelt(What, Text) :-
+    nonvar(What),
+    What \= rule(_),
+    \+ ( atom(What),
+         (   is_word(What)
+         ;   memberchk(What, [robot, stop, sound])
+         ;   why_(What, inf, _, _)
+         ) ),
+    once(misspelt(What, Text)).
 
 %   The motors that got the same stop as the Last one, in the same instant:
 %   within 0.02 s, by the same predicate, for the same cause.
@@ -135,6 +152,8 @@ same_stop(Command, Same) :-
 
 prolog:message(ev3dev(why(What, Ports, Why))) -->
     why_words(Why, What, Ports).
+prolog:message(ev3dev(why_misspelt(Text))) -->
+    [ '~w'-[Text] ].
 prolog:message(ev3dev(why_nothing(What))) -->
     [ '~w: no command is recorded'-[What] ].
 
@@ -214,6 +233,8 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %
 %   @error type_error(atom, What)
 %   @error existence_error(rule, Name) if that behave/1 did not have it
+%   @error existence_error(fluent, Fluent) if that run of Golog has none of
+%          that name, but one that is spelt nearly so
 
 why(What0, Why) :-
     (   nonvar(Why),
@@ -223,6 +244,8 @@ why(What0, Why) :-
     ;   nonvar(What0),
         explained(What0, Why0, _)
     ->  Why = Why0
+    ;   is_misspelt(What0, Text)
+    ->  throw_error(existence_error(fluent, What0), _, Text)
     ;   word(What0, What),
         why_(What, inf, Why, _)
     ).

@@ -73,6 +73,7 @@ with one argument, gets an underscore at its end.
 
 :- dynamic
     made/3,                             % Module, domain or problem, Ref
+    placed/2,                           % Ref, File:Line
     theory/2.                           % Module, Theory
 
 :- thread_local
@@ -144,12 +145,23 @@ pddl_problem(M:File) :-
 make(Clauses, M, Of) :-
     declare_domain(M),
     dynamic(( M:pddl_fact/1, M:pddl_is/2, M:pddl_value/2, M:pddl_cost/2 )),
-    forall(member(Clause, Clauses),
-           ( assertz(M:Clause, Ref),
-             assertz(made(M, Of, Ref)) )).
+    forall(member(Clause0, Clauses),
+           ( ( Clause0 = at(Place, Clause) -> true ; Clause = Clause0 ),
+             assertz(M:Clause, Ref),
+             assertz(made(M, Of, Ref)),
+             ( nonvar(Place) -> assertz(placed(Ref, Place)) ; true ) )).
 
 forget(M, Of) :-
-    forall(retract(made(M, Of, Ref)), catch(erase(Ref), error(_, _), true)).
+    forall(retract(made(M, Of, Ref)),
+           ( retractall(placed(Ref, _)),
+             catch(erase(Ref), error(_, _), true) )).
+
+%   Where the clauses of an action are written
+
+:- multifile ev3dev_error_texts:written_at/2.
+
+ev3dev_error_texts:written_at(Ref, Place) :-
+    placed(Ref, Place).
 
 % ---------------- DECLARATIONS
 
@@ -354,7 +366,8 @@ problem_clause(Parts, T, Clause) :-
     (   part(':goal', Parts, Place, Items)
     ->  (   Items = [Goal0]
         ->  condition(Goal0, [], T, Goal),
-            Clause = proc(pddl_goal, Goal)
+            Place = Line:_,
+            Clause = at(Path:Line, proc(pddl_goal, Goal))
         ;   wrong(Path, Place, ':goal has one condition, such as (and ..)'-[])
         )
     ;   wrong(Path, 1:1, 'there is no :goal'-[])
@@ -425,9 +438,15 @@ domain_clause(Parts, T, Clause) :-
                       begun(Items, Place, Path, Action) ), Actions),
     findall(Name-Place, member(action(Name, Place, _), Actions), Places),
     distinct(Places, 'the action', Path),
-    member(action(Name, _, Items), Actions),
+    member(action(Name, Place0, Items), Actions),
     fields(action, Items, Path, Fields),
-    action_clause(Name, Fields, T, Clause).
+    action_clause(Name, Fields, T, Clause1),
+    (   Clause1 = poss(_, _),
+        part(':precondition', Fields, Place1, _)
+    ->  Place1 = Line:_
+    ;   Place0 = Line:_
+    ),
+    Clause = at(Path:Line, Clause1).
 domain_clause(Parts, T, (pddl_derived(Stratum, Atom, Condition) :- Body)) :-
     findall(Rule, ( part(':derived', Parts, Place, Items),
                     rule(Items, Place, T, Rule) ), Rules),

@@ -469,6 +469,34 @@ test(the_first_false_part_of_each_clause,
                   proc(bright, light(x) = on) ],
                 M, why_not(M:a, not_possible(Failures))),
     findall(Part-Values, member(failure(Part, Values, none), Failures), Found).
+test(a_false_goal_in_the_body_of_a_precondition,
+     Whys == [ not_possible([failure(R \== hall, [], none)]),
+               not_possible([failure(room(attic), [], none)]),
+               not_possible([]), no_action ]) :-
+    R = hall,
+    with_domain([ (prim_action(go(Place)) :- atom(Place)), prim_action(call(_)),
+                  (poss(go(Room), true) :- room(Room), Room \== hall),
+                  poss(call(anna), true), room(hall), room(lab) ],
+                M, findall(Why,
+                           ( member(A, [go(hall), go(attic), call(bob), go(7)]),
+                             why_not(M:A, Why) ),
+                           Whys)).
+test(why_not_names_what_is_meant, [ forall(hint(Action, Text)), Lines == [Text, ''] ]) :-
+    with_domain([ (prim_action(go(R)) :- room(R), R \== yard),
+                  prim_action(look), prim_action(call(anna)),
+                  prim_action(open), room(hall), room(yard),
+                  (poss(go(R), true) :- R \== hall), poss(look, true),
+                  (poss(call(P), true) :- P = bob), exog_action(ring),
+                  poss(call(bob), true) ],
+                M, said(why_not(M:Action), [Line])),
+    atomic_list_concat(Lines, '\n', Line).
+test(why_not_names_the_line_of_a_declaration, true(Found == true)) :-
+    said(golog_lab:why_not(off(9)), [Text]),
+    (   sub_atom(Text, 0, _, _, 'off(9) is no action of the domain: \c
+                                 number_of_light(9) does not hold (lab.pl:')
+    ->  Found = true
+    ;   Found = Text
+    ).
 test(a_higher_priority, Why == priority(up, [n < 2])) :-
     why_not_after(prioritized_interrupts([ interrupt(n < 2, up),
                                            interrupt(neg(done(a)), a) ]),
@@ -582,7 +610,55 @@ test(why_a_fluent_has_its_value,
                   causes_false(a, q, n > 1), senses(a, s), execute(_, 7) ],
                 M, golog(M:[b, b, a], [history(_)])),
     findall(Why, ( member(F, [n, p, q, s]), why(F, Why) ), Whys).
+test(why_of_what_is_no_fluent,
+     [ forall(member(What-Wanted,
+                     [ lihgt(1)-'there is no fluent lihgt(1). Did you mean light/1?',
+                       wether-'there is no fluent wether. Did you mean weather/0?',
+                       at(moon)-'there is no fluent at(moon): \c
+                                 member(moon,[hall,lab,yard]) does not hold (lab.pl:' ])),
+       true(Found == true) ]) :-
+    online([up], [], _),
+    catch(why(What, _), error(existence_error(fluent, What), context(_, Text)), true),
+    (   sub_atom(Text, 0, _, _, Wanted)
+    ->  Found = true
+    ;   Found = Text
+    ).
+test(why_of_what_is_no_fluent_is_said, Text == 'there is no fluent wether. Did you mean weather/0?\n') :-
+    online([up], [], _),
+    with_hook(Text, why(wether)).
+test(why_of_a_device_is_not_about_a_fluent, [forall(member(Port, [outB, robot, stop, zzz])), fail]) :-
+    with_domain([ prim_action(a), poss(a, true), prim_fluent('outBB'),
+                  initially('outBB', 1), prim_fluent(robots), prim_fluent(stops) ],
+                M, golog(M:a, [])),
+    why(Port, _).
 :- end_tests(golog_why_not).
+
+hint(go(hall), 'go(hall) is not possible: hall\\==hall does not hold').
+hint(go(yard), 'go(yard) is no action of the domain: yard\\==yard does not hold').
+hint(go(moon), 'go(moon) is no action of the domain: room(moon) does not hold').
+hint(call(bob), 'call(bob) is no action of the domain, only with other arguments').
+hint(call(anna), 'call(anna) is not possible: anna=bob does not hold').
+hint(open, 'open is not possible: there is no poss/2 for it').
+hint(loook, 'loook is no action of the domain. Did you mean look/0?').
+hint(go(a, b), 'go(a,b) is no action of the domain. Did you mean go/1?').
+hint(ring, 'ring is no action of the domain: it is an exogenous one, which happens by itself').
+
+%   with_hook(-Text, :Goal): the only message of Goal, in words
+
+:- meta_predicate with_hook(-, 0).
+
+with_hook(Text, Goal) :-
+    nb_setval(golog_seen, none),
+    setup_call_cleanup(
+        asserta((user:thread_message_hook(Term, _, Lines) :-
+                     user:keep_lines(Term, Lines)), Ref),
+        call(Goal),
+        erase(Ref)),
+    nb_getval(golog_seen, Text).
+
+user:keep_lines(ev3dev(_), Lines) :-
+    with_output_to(atom(Text), print_message_lines(current_output, '', Lines)),
+    nb_setval(golog_seen, Text).
 
 user:asks_why_not(A, E) :-
     (   E == action(a)
@@ -607,6 +683,18 @@ test(no_initial_value, Said == true) :-
     ).
 test(a_relational_fluent_without_initial_value_is_false) :-
     with_domain([rel_fluent(f)], M, holds(M:neg(f), [])).
+test(without_a_value_a_condition_is_false_and_its_negation_true,
+     Truths-Said == [false, true, false, true, false, false]-true) :-
+    with_domain([ prim_action(look), prim_fluent(f), senses(look, f),
+                  rel_fluent(door), senses(look, door) ], M,
+                said(findall(T, ( member(P, [ f = 1, neg(f = 1), door, neg(door),
+                                              know(f), know(door) ]),
+                                  eval(M:P, [], T) ), Truths), _)),
+    with_domain([prim_fluent(f)], M1, said(ignore(holds(M1:(f = 1), [])), [Text])),
+    (   sub_atom(Text, _, _, _, 'so a condition about it is false, and its negation true')
+    ->  Said = true
+    ;   Said = Text
+    ).
 test(a_fluent_that_is_asked_before_it_is_sensed, Said-H == true-[c, a]) :-
     with_domain([ prim_action(look), prim_action(a), prim_action(c),
                   poss(_, true), prim_fluent(f), senses(look, f),
@@ -677,8 +765,7 @@ test(an_unknown_condition, [error(existence_error(golog_condition, wet/1))]) :-
     golog_lab:holds(wet(1), []).
 test(the_message_names_clause_and_line, true(Found == true)) :-
     catch(golog_lab:do(broken, _), error(_, context(_, Message)), true),
-    module_property(golog_lab, file(File)),
-    (   sub_atom(Message, 0, _, _, File),
+    (   sub_atom(Message, 0, _, _, 'lab.pl:'),
         sub_atom(Message, _, _, _, ': proc(broken): ')
     ->  Found = true
     ;   Found = Message
@@ -695,7 +782,11 @@ test(each_message_begins_with_file_line_and_clause, Otherwise == []) :-
                         Otherwise) )).
 
 message_of(Program, Message) :-
-    said(catch(ignore(do(golog_wrong_file:Program, _)), E, true), Said),
+    (   Program = online(P)
+    ->  Goal = golog(golog_wrong_file:P, [timeout(2)])
+    ;   Goal = do(golog_wrong_file:Program, _)
+    ),
+    said(catch(ignore(Goal), E, true), Said),
     (   nonvar(E)
     ->  E = error(_, context(_, Message))
     ;   Said = [Message|_]
@@ -715,6 +806,25 @@ poss(b, true).
 proc(round, ndet(?(false), [round, b])).
 proc(go_on, [b, fly(1)]).
 proc(wait_for_rain, [b, ?(wet(1))]).
+proc(wait_for_snow, pi((x, [1]), ?(snow(x)))).
+prim_action(c).  poss(c, height > 1).  prim_fluent(height).
+initially(height, 0).  causes_val(b, height, 1, true).
+proc(stuck, [b, inner]).
+proc(inner, [b, ?(height = 3), b]).
+proc(deep, [b, search([star(b), ?(height = 3)], [gives_up(steps(9))])]).
+proc(open_condition, [b, ?(_)]).
+proc(open_program, [b, _]).
+proc(somewhere, pi(p, plaice, b)).
+prim_action(d).
+poss(d, foggy).
+prim_action(e).  poss(e, true).
+robot_action(e, fail).
+proc(cheap, achieve(height = 1, [cheapest(true)])).
+action_cost(_, low).
+proc(together, [b, achieve(height = 1, [concurrent(true)])]).
+prim_action(h).  poss(h, true).
+execute(_, _).
+proc(sorted, for(x, 7, b)).
 ").
 
 wrong([b, a(1)], 3, 'prim_action(a/1)').
@@ -722,4 +832,124 @@ wrong(?(f = 1), 4, 'prim_fluent(f)').
 wrong(round, 7, 'proc(round)').
 wrong(go_on, 8, 'proc(go_on)').
 wrong(wait_for_rain, 9, 'proc(wait_for_rain)').
+wrong(wait_for_snow, 10, 'proc(wait_for_snow)').
+wrong(online(c), 11, 'poss(c)').
+wrong(online(stuck), 14, 'proc(inner)').
+wrong(deep, 15, 'proc(deep)').
+wrong(online(deep), 15, 'proc(deep)').
+wrong(open_condition, 16, 'proc(open_condition)').
+wrong(online(open_condition), 16, 'proc(open_condition)').
+wrong(open_program, 17, 'proc(open_program)').
+wrong(somewhere, 18, 'proc(somewhere)').
+wrong([b, d], 20, 'poss(d)').
+wrong(online([e]), 22, 'robot_action(e)').
+wrong(cheap, 24, 'action_cost(b)').
+wrong(together, 25, 'proc(together)').
+wrong(sorted, 28, 'proc(sorted)').
+test(a_clause_about_what_is_not_declared_is_told,
+     [ forall(undeclared(Clause, Wanted)), true(Lines == [Wanted, '']) ]) :-
+    small_domain([Clause], M, said(ignore(holds(M:true, [])), [Text])),
+    atomic_list_concat(Lines, '\n', Text).
+test(a_clause_about_what_is_declared_is_not_told,
+     [ forall(declared(Clause)), true(Texts == []) ]) :-
+    small_domain([Clause], M, said(ignore(holds(M:true, [])), Texts)).
+test(it_is_told_once, Times == 1) :-
+    small_domain([senses(go, load)], M,
+                 said(( holds(M:true, []),
+                        thread_create(holds(M:true, []), Id, []),
+                        thread_join(Id, true),
+                        assertz(M:prim_action(turn)),
+                        holds(M:true, []) ),
+                      Texts)),
+    length(Texts, Times).
+test(it_is_told_with_its_place_and_again_after_a_change,
+     Lines == [3, 4]) :-
+    tmp_file_stream(text, File, Stream),
+    close(Stream),
+    findall(Line,
+            ( member(More-Line, ["a"-3, "b).\nprim_fluent(a"-4]),
+              setup_call_cleanup(
+                  open(File, write, Out),
+                  format(Out, ":- use_module(library(ev3dev/golog)).~n\c
+                               prim_fluent(~w).~ninitially(att, 1).~n",
+                         [More]),
+                  close(Out)),
+              load_files(golog_undeclared:File, [if(true)]),
+              said(golog_undeclared:holds(true, []), [Text]),
+              file_base_name(File, Base),
+              format(atom(Begin), '~w:~w: initially/2: there is no fluent \c
+                                   att/0', [Base, Line]),
+              sub_atom(Text, 0, _, _, Begin) ),
+            Lines),
+    delete_file(File).
+
+%   small_domain(+More, -Module, :Goal)
+
+:- meta_predicate small_domain(+, -, 0).
+
+small_domain(More, M, Goal) :-
+    append([ prim_action(go(_)), poss(go(_), true), exog_action(bump),
+             prim_fluent(at), rel_fluent(seen(_)), fun_fluent(load),
+             derived(here, at = 1), initially(at, 1) ],
+           More, Clauses),
+    with_domain(Clauses, M, Goal).
+
+undeclared(causes_val(go(_), lode, 1, true),
+           'causes_val/4: there is no fluent lode/0; prim_fluent/1 declares \c
+            one. Did you mean load/0?').
+undeclared(causes_val(go(_), weight, 1, true),
+           'causes_val/4: there is no fluent weight/0; prim_fluent/1 \c
+            declares one. There are: at/0, here/0, load/0, seen/1').
+undeclared(causes_true(go(_), sen(_), true),
+           'causes_true/3: there is no fluent sen/1; prim_fluent/1 declares \c
+            one. Did you mean seen/1?').
+undeclared((causes_false(A, seem(1), true) :- A = go(1)),
+           'causes_false/3: there is no fluent seem/1; prim_fluent/1 \c
+            declares one. Did you mean seen/1?').
+undeclared(causes_val(go, at, 1, true),
+           'causes_val/4: there is no action go/0; prim_action/1 declares \c
+            one. Did you mean go/1?').
+undeclared(causes_true(failed(fly), seen(1), true),
+           'causes_true/3: there is no action fly/0; prim_action/1 declares \c
+            one. There are: bump/0, go/1').
+undeclared(causes_true(interrupted([go(1), fly]), seen(1), true),
+           'causes_true/3: there is no action fly/0; prim_action/1 declares \c
+            one. There are: bump/0, go/1').
+undeclared(senses(fly, at),
+           'senses/2: there is no action fly/0; prim_action/1 declares one. \c
+            There are: bump/0, go/1').
+undeclared(senses(go(_), _, laod, _, _),
+           'senses/5: there is no fluent laod/0; prim_fluent/1 declares one. \c
+            Did you mean load/0?').
+undeclared(poss(bumps, true),
+           'poss/2: there is no action bumps/0; prim_action/1 declares one. \c
+            Did you mean bump/0?').
+undeclared(initially(seen, true),
+           'initially/2: there is no fluent seen/0; prim_fluent/1 declares \c
+            one. Did you mean seen/1?').
+undeclared(forget(go(_), lod),
+           'forget/2: there is no fluent lod/0; prim_fluent/1 declares one. \c
+            Did you mean load/0?').
+undeclared(robot_action(goo(_), true),
+           'robot_action/2: there is no action goo/1; prim_action/1 declares \c
+            one. There are: bump/0, go/1').
+undeclared(robot_exog(bmup, true),
+           'robot_exog/2: there is no exogenous action bmup/0; exog_action/1 \c
+            declares one. Did you mean bump/0?').
+undeclared(sensed_values(sean(_), []),
+           'sensed_values/2: there is no fluent sean/1; prim_fluent/1 \c
+            declares one. Did you mean seen/1?').
+undeclared(action_cost(og(_), 1),
+           'action_cost/2: there is no action og/1; prim_action/1 declares \c
+            one. There are: bump/0, go/1').
+
+declared(causes_true(bump, seen(1), true)).
+declared(causes_true(failed(go(_)), seen(1), true)).
+declared(causes_true(failed([go(1)]), seen(1), true)).
+declared(causes_true(set(_), seen(1), true)).
+declared(causes_true(_, seen(1), true)).
+declared((forget(go, ta) :- fail)).
+declared((prim_action(A) :- member(A, [fly, swim]))).
+declared(prim_fluent(never_used)).
+declared(initially(load, 1)).
 :- end_tests(golog_wrong).

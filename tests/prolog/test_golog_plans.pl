@@ -509,6 +509,40 @@ test(what_holds_for_some_values_is_possible, Truths == [unknown, unknown]) :-
 test(what_is_known_or_known_not_has_a_truth, Truths == [true, false]) :-
     findall(T, ( member(P, [place < 4, place = 7]),
                  golog_uncertain:eval(P, [], T) ), Truths).
+test(what_was_never_sensed_is_not_known,
+     Truths == [unknown, unknown, unknown, unknown, false, unknown, true] ) :-
+    never_sensed(M, findall(T, ( member(P, [ door, neg(door), far < 3, neg(far = far), and(door, at = 7),
+                                             color = red, neg(other) ]),
+                                 eval(M:P, [], T) ), Truths)).
+test(what_was_never_sensed_is_possible) :-
+    never_sensed(M, forall(member(P, [door, neg(door), far < 3, neg(far < 3), color = red]),
+                           ( holds(M:possibly(P), []), \+ holds(M:P, []) ))),
+    never_sensed(M1, \+ holds(M1:possibly(color = blue), [])).
+test(what_was_never_sensed_is_asked_for_in_silence, Texts == []) :-
+    never_sensed(M, said(golog(M:if(far < 3, a, if(neg(door), a, [])), []), Texts)).
+test(a_precondition_waits_until_it_is_sensed, Hs == [[knock|H]]) :-
+    H = [e(look, 0), look],
+    never_sensed(M, findall(H1, ( member(H0, [[], [e(look, 1), look], H]),
+                                  do(M:knock, H0, H1) ), Hs)).
+test(what_was_never_sensed_has_the_values_it_may_have, Vs-Cs-Fs == [false, true]-[green, red]-[]) :-
+    never_sensed(M, ( findall(V, has_val(M:door, V, []), Vs),
+                      findall(C, has_val(M:color, C, []), Cs),
+                      findall(F, has_val(M:far, F, []), Fs) )).
+
+%   door, color and far are sensed, and have no initial value.
+
+:- meta_predicate never_sensed(-, 0).
+
+never_sensed(M, Goal) :-
+    with_domain([ prim_action(a), poss(a, true), prim_action(knock),
+                  poss(knock, neg(door)), prim_action(look), poss(look, true),
+                  prim_fluent(at), initially(at, 1), initially(at, 2),
+                  rel_fluent(door), rel_fluent(other), prim_fluent(far),
+                  settles(look, 1, door, true, true),
+                  settles(look, 0, door, false, true),
+                  prim_fluent(color), senses(a, color), senses(a, far),
+                  sensed_values(color, [red, green]) ], M, Goal).
+
 test(sensing_settles_a_value) :-
     known(full(b), [e(peek(b), 1), peek(b)]),
     known(neg(full(b)), [e(peek(b), 0), peek(b)]),

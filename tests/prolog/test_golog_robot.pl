@@ -231,7 +231,7 @@ test(ten_thousand_at_random_times_are_counted_in_moves,
                     set_random(seed(3)),
                     assertz(M:arrive(0)),
                     % Between two of 15 ms: none, one, or many at once
-                    assertz((M:robot_exog(none, fail) :-
+                    assertz((M:robot_exog(tick(_), fail) :-
                                  user:some_arrive(M))),
                     golog(M:while(ticks < 10000, rest), [history(H)]),
                     has_val(M:ticks, Sum, H) )),

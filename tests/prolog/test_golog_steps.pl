@@ -142,7 +142,7 @@ test(the_interpreter_knows_as_many_steps,
     ( fewest_steps(Problem, Fewest) -> true ; Fewest = none ),
     payload(Problem, Clauses),
     goal_of(Problem, Goal),
-    (   with_domain([forget(nobody, nothing)|Clauses], M,
+    (   with_domain([(forget(_, _) :- fail)|Clauses], M,
                     once(do(M:achieve(Goal, [concurrent(true)]), H)))
     ->  reverse(H, Steps),
         is_plan(Problem, Steps),
@@ -315,11 +315,11 @@ words([bell, sing(c)], 'the step [bell,sing(c)] is not possible: bell belongs to
 words([look(c), count(a)], 'the step [look(c),count(a)] is not possible: look(c) senses, so it is a step by itself').
 words([count(a), count(b)], 'the step [count(a),count(b)] is not possible: count(a) and count(b) would give n two values').
 words([lower(b), sing(c)], 'lower(b) is not possible: up(b) does not hold').
-words([fly(a), sing(c)], 'fly(a) is no action of the domain').
+words([fly(a), sing(c)], 'fly(a) is no action of the domain. There are: bell/0, count/1, lift/1, look/1, lower/1, shout/1, sing/1').
 words([lift(a), lift(b)], '[lift(a),lift(b)] comes next: nothing stands in its way').
 
 test(a_run_says_it_in_words,
-     Texts == ['Golog: the step [count(a),count(b)] is not possible: count(a) and count(b) would give n two values']) :-
+     Texts == ['prim_action(count/1): the step [count(a),count(b)] is not possible: count(a) and count(b) would give n two values']) :-
     with_table(M, texts(\+ golog(M:together([count(a), count(b)]), []), Texts)).
 test(a_step_without_robots_is_executed_in_turn, Done-H == [lift(a), lift(b)]-[[lift(a), lift(b)]]) :-
     table(Clauses),
@@ -472,6 +472,16 @@ ground_agents(prim_action(A), (prim_action(A) :- member(R, [back, front]))) :-
     arg(1, A, R).
 ground_agents(Clause, Clause).
 
+%   A goal that throws that a brick is gone, fails, or succeeds, by turns
+
+user:nods :-
+    retract(user:bar_lies([Now|Times])),
+    assertz(user:bar_lies(Times)),
+    (   Now == g
+    ->  throw(error(existence_error(brick, back), _))
+    ;   Now == '.'
+    ).
+
 :- begin_tests(golog_steps_robots).
 
 carry(M, Goal, Options, Reason, History) :-
@@ -500,7 +510,7 @@ test(when_one_is_killed_the_other_one_stands_within_a_second,
       true(Reason-Moved == failed([carry(back), carry(front)])-true)]) :-
     retractall(user:bar_lies(_)),
     setup_call_cleanup(
-        asserta(user:message_hook(golog(part_failed(front, _, _)), _, _), Hook),
+        asserta(user:message_hook(golog(part_failed(_, front, _, _)), _, _), Hook),
         carried([on_failed(stop)], plunit_golog_steps_robots:killed(How), Reason, History),
         erase(Hook)),
     History = [failed([carry(back), carry(front)])|_],
@@ -557,7 +567,7 @@ test(an_agent_without_a_brick_fails, Reason-Told == failed([nod(back), nod(ghost
     setup_call_cleanup(
         ( sim_start(bar, [clock(virtual), robots([back-carrier, front-carrier])]),
           retractall(user:bar_lies(_)),
-          asserta((user:message_hook(golog(part_failed(R, _, _)), _, _) :-
+          asserta((user:message_hook(golog(part_failed(_, R, _, _)), _, _) :-
                        assertz(user:bar_lies(R))), Hook) ),
         with_domain([ agent(back), agent(ghost), prim_action(nod(back)),
                       prim_action(nod(ghost)), poss(nod(_), true),
@@ -567,6 +577,25 @@ test(an_agent_without_a_brick_fails, Reason-Told == failed([nod(back), nod(ghost
         ( erase(Hook),
           forall(member(Brick, [back, front]), brick_close(Brick)) )),
     findall(R, retract(user:bar_lies(R)), Told).
+test(what_is_missing_is_told_once_until_it_is_there_again,
+     [ forall(member(Gone-Told, [ "ggggg"-[part, action], "gg.gg"-[part, action, part, action],
+                                  "gfg"-[part, action, part] ])),
+       Texts == Told ]) :-
+    setup_call_cleanup(
+        sim_start(bar, [clock(virtual), robots([back-carrier, front-carrier])]),
+        with_domain([ agent(back), agent(front), prim_action(nod(back)), poss(nod(_), true),
+                      robot_action(_, nod(_), user:nods) ], M,
+                    ( string_chars(Gone, Times),
+                      length(Times, Limit),
+                      retractall(user:bar_lies(_)),
+                      assertz(user:bar_lies(Times)),
+                      said(golog(M:while(true, nod(back)), [limit(Limit), reason(_)]), Texts0) )),
+        forall(member(Brick, [back, front]), brick_close(Brick))),
+    findall(What,
+            ( member(Text, Texts0),
+              ( sub_atom(Text, _, _, _, 'of back failed') -> What = part
+              ; sub_atom(Text, _, _, _, 'nod(back) failed') -> What = action ) ),
+            Texts).
 test(an_action_by_itself_is_done_by_its_agent, Y1-Y2 == moved-still) :-
     setup_call_cleanup(
         ( sim_start(bar, [clock(virtual), robots([back-carrier, front-carrier])]),

@@ -650,6 +650,37 @@ test(an_object_with_the_name_of_a_fluent, error(syntax_error(pddl))) :-
     with_text("(define (problem p) (:objects handempty)
                  (:init) (:goal (handempty)))", File,
               pddl_problem(pddl_test:File)).
+test(why_not_names_the_false_part_and_its_line,
+     Whys == [ not_possible([fuel-[fuel = false]-3]), not_possible([pddl_fact(road(x, z))-[]-3]),
+               not_possible([neg(fuel)-[fuel = true]-7]), no_action, not_offered ]) :-
+    with_text("(define (domain d) (:types town) (:predicates (road ?a ?b - town) (at ?a - town) (fuel) (c ?a))
+                 (:action drive :parameters (?a ?b - town)
+                   :precondition (and (at ?a)
+                     (road ?a ?b) (fuel))
+                   :effect (and (not (at ?a)) (at ?b)))
+                 (:action fill
+                   :precondition (not (fuel)) :effect (fuel)))",
+              Domain, pddl_domain(pddl_why:Domain)),
+    with_text("(define (problem p) (:objects x y z - town c)
+                 (:init (at x) (road x y)) (:goal (at y)))",
+              Problem, pddl_problem(pddl_why:Problem)),
+    findall(Why,
+            ( member(History-A, [ []-drive(x, y), []-drive(x, z), [fill]-fill, []-drive(x, c),
+                                  [fill]-drive(x, y) ]),
+              pddl_why:golog([], [initial(History)]),
+              (   pddl_why:why_not(A, Why0)
+              ->  in_lines(Why0, Domain, Why)
+              ;   Why = none
+              ) ),
+            Whys).
+
+in_lines(Why0, File, Why) :-
+    (   Why0 = not_possible(Failures0)
+    ->  findall(Part-Values-Line, member(failure(Part, Values, File:Line), Failures0), Failures),
+        Why = not_possible(Failures)
+    ;   Why = Why0
+    ).
+
 test(a_file_that_is_not_there,
      [ forall(member(Goal, [ pddl_domain(nix), pddl_problem(nix) ])),
        error(existence_error(source_sink, nix)) ]) :-

@@ -172,10 +172,15 @@ quoted([Value|Values], [Atom|Atoms]) :-
 %!  place_first(+Place, -Text) is det.
 %
 %   Place is the File:Line of a Clause, or `none`. Text names it after what is
-%   there, or before it, without the folder, or is empty.
+%   there, or before it, without the folder, or is empty. A library that makes
+%   clauses of what it reads says by written_at/2 where that is.
+
+:- multifile written_at/2.              % +Clause, -Place
 
 clause_place(Clause, Place) :-
-    (   clause_property(Clause, file(File)),
+    (   written_at(Clause, Place0)
+    ->  Place = Place0
+    ;   clause_property(Clause, file(File)),
         clause_property(Clause, line_count(Line))
     ->  Place = File:Line
     ;   Place = none

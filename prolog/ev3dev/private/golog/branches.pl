@@ -191,7 +191,7 @@ all_known([A0|As0], [A|As], S, Context, M) :-
 
 no_branch(P, Why, Context) :-
     context_module(Context, M),
-    located(M, in_program(P), Where),
+    located(M, in_program([P]), Where),
     format(atom(Text), '~wno plan can branch on ~p, which is still to be \c
                         sensed: ~w. A sensed_values/2 for the fluent would \c
                         help', [Where, P, Why]),

@@ -10,7 +10,8 @@
 :- use_module(branches, [holds_if_assumed/4]).
 :- use_module(context,
               [ call_of/3, context_effort/2, context_mode/2, context_module/2,
-                context_option/2, dual/2, entered/4, in_mode/3, with_option/3
+                context_option/2, dual/2, entered/4, in_mode/3, place_in/3,
+                with_option/3
               ]).
 :- use_module(effort, [asks_history/1, polled/1]).
 :- use_module(programs,
@@ -23,8 +24,8 @@
                 names_fluent/2, proc_body/3
               ]).
 :- use_module(values,
-              [ evaluated_arguments/4, fluent_value/4, known_or_declared/3,
-                known_value/4
+              [ asks_unknown/3, evaluated_arguments/4, fluent_value/4,
+                known_or_declared/3, known_value/4
               ]).
 :- use_module('../errors/errors', [throw_error/3]).
 
@@ -51,8 +52,10 @@ ev3dev_golog_values:decided(Condition, S, Context) :-
 
 holds(P, S, Context) :-
     (   var(P)
-    ->  throw_error(instantiation_error, _,
-                    'a condition is still a variable when it is tested')
+    ->  place_in(Context, condition, Where),
+        format(atom(Text), '~wa condition is still a variable when it is \c
+                            tested', [Where]),
+        throw_error(instantiation_error, _, Text)
     ;   closed(P)
     ->  holds_(P, S, Context),
         !
@@ -70,8 +73,13 @@ holds_(P, S, Context) :-
              ) )
     ->  holds_(Q, S, Context)
     ;   context_mode(Context, Mode),
-        (   ( Mode == plain ; Mode == possible )
+        (   Mode == plain
         ->  holds_atom(P, S, Context)
+        ;   Mode == possible
+        ->  (   holds_atom(P, S, Context)
+            *-> true
+            ;   asks_unknown(P, S, Context)
+            )
         ;   Mode == known
         ->  known_atom(P, S, Context)
         ;   catch(holds_atom(P, S, Context), '$golog_unknown'(F),

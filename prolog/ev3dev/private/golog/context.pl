@@ -7,6 +7,7 @@
             in_mode/3,                  % ?Mode, +Context0, -Context
             dual/2,                     % +Context0, -Context
             entered/4,                  % +Kind, +Call, +Context0, -Context
+            place_in/3,                 % +Context, +Kind, -Text
             call_of/3,                  % +Condition, +Goal, +Context
             stepping/2,                 % +Context0, -Context
             recording/4,                % +Number, :Watch, +Context0, -Context
@@ -75,9 +76,11 @@ mode(Options, Module, Mode) :-
         ;   Mode = plain
         )
     ;   has_possible_values(Module)
-    ->  throw_error(permission_error(search, golog_domain, Module), _,
-                    'searchc plans for what senses/2 and senses/5 may \c
-                     answer; in a domain with possible values, use search')
+    ->  located(Module, in_program([searchc(_), searchc(_, _)]), Where),
+        format(atom(Text), '~wsearchc plans for what senses/2 and senses/5 \c
+                            may answer; in a domain with possible values, \c
+                            use search', [Where]),
+        throw_error(permission_error(search, golog_domain, Module), _, Text)
     ;   Mode = conditional
     ).
 
@@ -177,6 +180,7 @@ recorded_step(Context, Number, Notes) :-
 
 recorded_notes(record(_, Partial), Notes) :-
     reversed(Partial, [], Notes).
+recorded_notes(none, []).
 
 reversed(Partial, Notes0, Notes) :-
     (   var(Partial)
@@ -212,6 +216,25 @@ again([c(Kind0, Call0)|Calls], Kind, Call, N) :-
     ;   true
     ).
 
+%!  place_in(+Context, +Kind, -Text) is det.
+%
+%   Text is `File:Line: Clause: ` of the procedure that the step is in; else
+%   of the one that has a variable in the place of a Kind, `program` or
+%   `condition`; or empty.
+
+place_in(context(M, _, Calls, Record, _, _), Kind, Text) :-
+    (   Calls = [c(_, Call)|_]
+    ->  true
+    ;   recorded_notes(Record, Notes),
+        memberchk(proc(Name/Arity), Notes)
+    ->  functor(Call, Name, Arity)
+    ;   true
+    ),
+    (   nonvar(Call)
+    ->  located(M, proc(Call), Text)
+    ;   located(M, open(Kind), Text)
+    ).
+
 %!  call_of(+Condition, :Goal, +Context) is nondet.
 %
 %   Call the Prolog Goal that Condition is, with fluents replaced.
@@ -232,7 +255,8 @@ call_of(Condition, Goal, Context) :-
 no_predicate(PI, Where0, Condition, Goal, M) :-
     strip_module(PI, _, Name/Arity),
     (   functor(Goal, Name, Arity)
-    ->  located(M, in_program(Condition), Where),
+    ->  functor(Named, Name, Arity),
+        located(M, in_program([Condition, Named]), Where),
         hint(Goal, M, Hint),
         format(atom(Text), '~wthere is no fluent, condition or predicate \c
                             ~q~w', [Where, Name/Arity, Hint]),

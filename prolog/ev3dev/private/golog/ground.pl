@@ -18,7 +18,8 @@
 :- use_module(programs, [condition_construct/1, fresh/4]).
 :- use_module(theory,
               [ derived_rule/4, domain_list/3, has_clauses/2, is_fluent/2,
-                is_kind/3, is_sensing_action/2, names_fluent/2, proc_body/3
+                is_kind/3, is_sensing_action/2, located/3, names_fluent/2,
+                proc_body/3
               ]).
 :- use_module('../errors/errors', [throw_error/3]).
 
@@ -95,8 +96,10 @@ only_relations(M) :-
     (   member(Head, [prim_fluent(F), fun_fluent(F)]),
         has_clauses(M, Head),
         M:Head
-    ->  throw_error(domain_error(pddl_fluent, F), _,
-                    'PDDL has true and false only: rel_fluent/1')
+    ->  located(M, fluent(F), Where),
+        format(atom(Text), '~wPDDL has true and false only: rel_fluent/1',
+               [Where]),
+        throw_error(domain_error(pddl_fluent, F), _, Text)
     ;   true
     ).
 
@@ -140,7 +143,7 @@ effect(A, M, F, V, E) :-
         residual(and(Rest), M, E2),
         both(E1, E2, E)
     ),
-    must_be_ground(F-V).
+    must_be_ground(F-V, M).
 
 %!  exclude(+Expression1, +Expression2) is semidet.
 %
@@ -162,7 +165,7 @@ exclude(E1, E2) :-
 ground_rules(M, Rules) :-
     findall(rule(F, E),
             ( derived_rule(_, F, P, M),
-              must_be_ground(F),
+              must_be_ground(F, M),
               ground_condition(P, M, E),
               E \== false ),
             Rules).
@@ -202,7 +205,7 @@ residual(P, M, E) :-
     ->  residual(neg(some(Vs, neg(Q))), M, E)
     ;   is_kind(derived, P, M)
     ->  arguments_with_values(P, P, Q, E1, M),
-        must_be_ground(Q),
+        must_be_ground(Q, M),
         both(E1, Q, E)
     ;   is_kind(proc, P, M)
     ->  proc_body(P, Q, M),
@@ -210,7 +213,7 @@ residual(P, M, E) :-
     ;   P \== true,
         P \== false,
         ( condition_construct(P) ; P = _:_, names_fluent(P, M) )
-    ->  undecided(P)
+    ->  undecided(P, M)
     ;   arguments_with_values(P, P, Q, E1, M),
         holds_with(Q, E2, M),
         both(E1, E2, E)
@@ -222,7 +225,7 @@ holds_with(P, E, M) :-
         E = true
     ;   is_relation(P, M)
     ->  M:rel_fluent(P),
-        must_be_ground(P),
+        must_be_ground(P, M),
         E = P
     ;   asked_value(P, true),
         E = (P = true)
@@ -263,7 +266,7 @@ with_value(T0, P, T, E, M) :-
         ->  T = T1,
             E = E1
         ;   is_relation(T1, M)
-        ->  undecided(P)
+        ->  undecided(P, M)
         ;   \+ asked_value(T1, _),
             \+ is_fluent(T1, M)
         ->  T = T1,
@@ -273,15 +276,16 @@ with_value(T0, P, T, E, M) :-
         )
     ).
 
-must_be_ground(F) :-
+must_be_ground(F, M) :-
     (   ground(F)
     ->  true
-    ;   undecided(F)
+    ;   undecided(F, M)
     ).
 
-undecided(P) :-
-    throw_error(domain_error(pddl_condition, P), _,
-                'PDDL cannot say that').
+undecided(P, M) :-
+    located(M, in_program([P]), Where),
+    format(atom(Text), '~wPDDL cannot say that', [Where]),
+    throw_error(domain_error(pddl_condition, P), _, Text).
 
 %!  conjunction(+Condition, -Part1, -Part2) is semidet.
 

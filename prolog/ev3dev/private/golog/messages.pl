@@ -30,58 +30,76 @@ prolog:message(error(syntax_error(operator_expected),
 words(no_initial_value(Where, Fluent)) -->
     { functor(Fluent, Name, Arity) },
     [ '~wthe fluent ~q has no initial value: '-[Where, Name/Arity],
-      'there is no initially/2 for it, and conditions about it do not hold'-[]
+      'there is no initially/2 for it, so a condition about it is false, \c
+       and its negation true'-[]
     ].
 words(not_sensed_yet(Where, Fluent)) -->
     { functor(Fluent, Name, Arity) },
     [ '~wthe fluent ~q has no value before it is sensed: '-
       [Where, Name/Arity],
-      'until then conditions about it do not hold. know/1 asks for that, \c
-       and initially/2 gives a value'-[]
+      'until then a condition about it is false, and its negation true. \c
+       know/1 asks for that, and initially/2 gives a value'-[]
     ].
+words(undeclared(Text)) -->
+    [ '~w'-[Text] ].
 words(history(History)) -->
     [ 'History: ~p'-[History] ].
 words(search(What, Message)) -->
     [ 'Search: ' ],
     message_words(Message),
     outcome(What).
-words(gave_up(Limit, Far)) -->
-    [ 'Golog: ' ],
+words(gave_up(Where, Limit, Far)) -->
+    whence(Where),
     reason(gave_up(Limit, Far)).
 words(out_of_time(Far)) -->
     [ 'Golog: the time was over during a search for a step; ' ],
     far(Far).
+words(placed(Where, Message)) -->
+    whence(Where),
+    said(Message).
 words(ended(Count)) -->
     [ 'Golog: the program ended, ~D entries in the history'-[Count] ].
-words(not_ended(Reason)) -->
-    [ 'Golog: ' ],
+words(not_ended(Where, Reason)) -->
+    whence(Where),
     reason(Reason).
-words(failed_action(Action)) -->
+words(failed_action(Where, Action)) -->
     { in_words(Action, Words) },
-    [ 'Golog: ~w failed'-[Words] ].
-words(part_failed(Agent, Action, Error)) -->
+    whence(Where),
+    [ '~w failed'-[Words] ].
+words(part_failed(Where, Agent, Action, Error)) -->
     { message_text(Error, Text) },
-    [ 'Golog: ~p of ~p failed: ~w'-[Action, Agent, Text] ].
+    whence(Where),
+    [ '~p of ~p failed: ~w'-[Action, Agent, Text] ].
 words(no_exogenous(Action)) -->
     [ 'Golog: ~p is not an exogenous action of the domain; it is ignored'-
       [Action] ].
-words(dry(Action)) -->
-    [ 'Golog: nothing says how to execute ~p'-[Action] ].
-words(dry(Action, Device, Code)) -->
-    [ 'Golog: ~p: nothing runs ~p of the device ~p'-[Action, Code, Device] ].
 words(asked(Action)) -->
     [ 'Golog: what does ~p sense?'-[Action] ].
 words(executing(Action)) -->
     [ 'Executing ~p'-[Action] ].
 words(which_exogenous(Actions)) -->
     [ 'What has happened? One of ~p, or nil.'-[Actions] ].
-words(why_not(Action, Why)) -->
-    hindrance(Why, Action).
+words(why_not(Action, Why, More)) -->
+    hindrance(Why, Action),
+    [ '~w'-[More] ].
 words(why(Fluent, fluent(Value, By))) -->
     [ '~p is ~p'-[Fluent, Value] ],
     set_by(By).
 words(report(_, Message)) -->
     message_words(Message).
+
+%   A message begins with the place of its clause.
+
+whence(Where) -->
+    (   { Where == '' }
+    ->  [ 'Golog: ' ]
+    ;   [ '~w'-[Where] ]
+    ).
+
+said(dry(Action)) -->
+    [ 'nothing says how to execute ~p'-[Action] ].
+said(dry(Action, Device, Code)) -->
+    [ '~p: nothing runs ~p of the device ~p'-[Action, Code, Device] ].
 
 outcome(begin) -->
     [].

@@ -8,7 +8,8 @@
                 ground_rules/2, only_relations/1
               ]).
 :- use_module(planning_task, [cost/4]).
-:- use_module(theory, [derived_rule/4, has_clauses/2, prepare/1]).
+:- use_module(theory,
+              [derived_rule/4, has_clauses/2, located/3, prepare/1]).
 :- use_module('../errors/errors', [throw_error/3]).
 
 /** <module> A domain of Golog as PDDL
@@ -76,8 +77,10 @@ no_step_rules(M) :-
     (   member(Rule, [together(_, _), excludes(_, _), always(_)]),
         has_clauses(M, Rule),
         clause(M:Rule, _)
-    ->  throw_error(domain_error(pddl_condition, Rule), _,
-                    'PDDL cannot say what agents do in one step')
+    ->  located(M, clause([Rule]), Where),
+        format(atom(Text), '~wPDDL cannot say what agents do in one step',
+               [Where]),
+        throw_error(domain_error(pddl_condition, Rule), _, Text)
     ;   true
     ).
 

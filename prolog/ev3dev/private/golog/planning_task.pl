@@ -22,7 +22,7 @@
 :- use_module(steps, [agent_of/3, always/3, needed/3]).
 :- use_module(theory,
               [ has_agents/1, has_clauses/2, has_possible_values/1,
-                has_step_rules/1
+                has_step_rules/1, located/3
               ]).
 :- use_module('../errors/errors', [throw_error/3]).
 :- use_module('../native/native',
@@ -313,8 +313,10 @@ cost(Costs, A, M, Cost) :-
             Cost =:= Cost0,
             between(0, 1000000000, Cost)
         ->  true
-        ;   throw_error(domain_error(action_cost, A), _,
-                        'action_cost/2 has no whole number from 0 on for it')
+        ;   located(M, clause([action_cost(A, _), prim_action(A)]), Where),
+            format(atom(Text), '~waction_cost/2 has no whole number from 0 \c
+                                on for it', [Where]),
+            throw_error(domain_error(action_cost, A), _, Text)
         )
     ;   Cost = 1
     ).

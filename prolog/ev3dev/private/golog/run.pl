@@ -4,7 +4,8 @@
             recorded_history/1,         % -History
             situation_of_run/4,         % +History, +Module, -Situation,
                                         % +Context
-            state_of_run/3              % +Module, -Program, -Situation
+            state_of_run/3,             % +Module, -Program, -Situation
+            reason_place/3              % +Reason, +Module, -Text
           ]).
 :- use_module('../basics/fields',
               [fields/1, goal_expansion/2, term_expansion/2]).
@@ -19,17 +20,17 @@
               [history_shortened/3, situation_count/2, situation_history/2]).
 :- use_module(effort, [how_far/2, in_trial/1]).
 :- use_module(queue, [queue_put/2]).
+:- use_module(programs, [parts/5]).
 :- use_module(search, [replanned_since/1]).
 :- use_module(theory,
-              [ has_clauses/2, is_kind/3, prepare/1, proc_place/4
-              ]).
+              [has_clauses/2, is_kind/3, located/3, prepare/1, proc_place/4]).
 :- use_module(transitions,
               [ higher_can_step/3, is_final/3, is_preempted/4,
                 made_possible/4, program_shown/2, simplified/3, step/5
               ]).
 :- use_module(waiting,
               [ causes_wanted/1, clock/2, followed/1, pause/4,
-                robot_stopped/2
+                robot_stopped/2, report_again/0
               ]).
 :- use_module(world,
               [ agent_begins/1, agent_ends/1, executed/7, exogenous_seen/2,
@@ -85,6 +86,8 @@ run_online(M, E, Settings, Reason, History) :-
 begun(M, Initial, Keep) :-
     agent_begins(M),
     watch_begins(M),
+    report_again,
+    retractall(failed(_)),
     retractall(entry_record(_, _)),
     retractall(keeps(_)),
     assertz(keeps(Keep)),
@@ -206,6 +209,43 @@ state_of_run(Module, E, S) :-
     ),
     S = S0,
     E = E0.
+
+%!  reason_place(+Reason, +Module, -Text) is det.
+%
+%   Text is `File:Line: Clause: ` of what made the last run end for Reason, or
+%   empty: the precondition, or the procedure that cannot go on.
+
+reason_place(Reason, M, Text) :-
+    (   place_of(Reason, M, What)
+    ->  located(M, What, Text)
+    ;   Text = ''
+    ).
+
+place_of(not_possible(A, Condition), _, precondition(A, Condition)).
+place_of(failed(A), _, executes(A)).
+place_of(no_step(_), M, What) :-
+    stuck(M, What).
+place_of(gave_up(_, _), M, What) :-
+    stuck(M, What).
+
+stuck(M, proc(Call)) :-
+    state_of_run(M, E, _),
+    innermost(E, M, Call).
+
+%   innermost(+Program, +Module, -Call) is semidet: Call is the procedure, or
+%   has its functor, that Program is in or begins with.
+
+innermost(E, M, Call) :-
+    nonvar(E),
+    (   parts(E, _, Parts, _, _),
+        member(Part, Parts),
+        innermost(Part, M, Call0)
+    ->  Call = Call0
+    ;   E = '$within'(proc(Name/Arity), _)
+    ->  functor(Call, Name, Arity)
+    ;   is_kind(proc, E, M)
+    ->  Call = E
+    ).
 
 situation_noted(Now) :-
     (   nb_current(ev3dev_golog_now, Now0)
@@ -496,7 +536,8 @@ acted(A, E, S1, State0, R, State, Next) :-
     (   Outcome == done,
         sensing_entries(A, Value, M, Entries),
         ( Entries == [] ; nonvar(Value) )
-    ->  situation_count(S1, C),
+    ->  retractall(failed(A)),
+        situation_count(S1, C),
         record(C, A),
         entered_all(Entries, S1, S, R),
         (   Entries == []
@@ -515,9 +556,21 @@ acted(A, E, S1, State0, R, State, Next) :-
         State = at(E, S, News),
         (   OnFailed == stop
         ->  Next = failed(A)
-        ;   print_message(informational, golog(failed_action(A))),
+        ;   failure_reported(A, M),
             Next = on
         )
+    ).
+
+%   The failure of an action is reported once, until the action is done.
+
+:- thread_local failed/1.               % Action
+
+failure_reported(A, M) :-
+    (   failed(A)
+    ->  true
+    ;   assertz(failed(A)),
+        located(M, executes(A), Where),
+        print_message(informational, golog(failed_action(Where, A)))
     ).
 
 %   The causes in library(ev3dev/journal) for the commands of an action: its

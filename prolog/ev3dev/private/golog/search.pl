@@ -20,7 +20,7 @@
 :- use_module(steps, [agent_of/3, step_after/5]).
 :- use_module(theory,
               [ has_agents/1, has_clauses/2, has_step_rules/1, is_kind/3,
-                is_sensing_action/2
+                is_sensing_action/2, located/3
               ]).
 :- use_module(transitions, [in_atom/3, is_final/3, is_possible/3, step/5]).
 :- use_module('../errors/errors', [domain_error/2, throw_error/3]).
@@ -115,24 +115,28 @@ search_step(E, Options, S, E1, S1, X) :-
 
 search_committed(E, Options, S, Path, X0) :-
     offline(X0, Options, X),
-    limited(search_path(E, Options, S, Path, X), X).
+    limited(search_path(E, Options, S, Path, X),
+            [search(E), search(E, _), search(E, _, _), searchn(E, _)], X).
 
-%   limited(:Goal, +Context) is nondet.
-%   Goal is a search with Context. It fails when it gives up.
+%   limited(:Goal, +Constructs, +Context) is nondet.
+%   Goal is a search with Context, for one of Constructs. It fails when it
+%   gives up.
 
-:- meta_predicate limited(0, +).
+:- meta_predicate limited(0, +, +).
 
-limited(Goal, X) :-
+limited(Goal, Constructs, X) :-
     context_effort(X, Effort),
     effort_id(Effort, Id),
     catch(catch(Goal, '$golog_committed', fail),
           '$golog_gave_up'(Id, Limit),
-          gives_up(Limit, Effort)).
+          gives_up(Limit, Effort, Constructs, X)).
 
-gives_up(Limit, Effort) :-
+gives_up(Limit, Effort, Constructs, X) :-
     how_far(Effort, Far),
     gave_up(Limit, Far),
-    print_message(informational, golog(gave_up(Limit, Far))),
+    context_module(X, M),
+    located(M, in_program(Constructs), Where),
+    print_message(informational, golog(gave_up(Where, Limit, Far))),
     fail.
 
 %   offline(+Context0, +Options, -Context) is det.
@@ -398,7 +402,7 @@ told(Options, What) :-
 
 conditional_plan(E, Options, S, Plan, X0) :-
     offline(X0, [conditional|Options], X),
-    limited(planned(E, S, 0, Plan, X), X).
+    limited(planned(E, S, 0, Plan, X), [searchc(E), searchc(E, _)], X).
 
 planned(E, S, Depth, Plan, X) :-
     context_effort(X, Effort),
@@ -513,7 +517,8 @@ achieve_step(Goal, Options, E, S, E1, S1, X) :-
         step(Body, S, E1, S1, X)
     ;   \+ holds(Goal, S, X),
         offline(X, Options, X1),
-        limited(achieving_plan(Goal, Options, S, Plan, X1), X1),
+        limited(achieving_plan(Goal, Options, S, Plan, X1),
+                [achieve(Goal), achieve(Goal, _)], X1),
         achieving(Plan, E, Path),
         path_begun(E, Path, achieve, S, E1, S1, X)
     ).
@@ -593,8 +598,10 @@ plan_of(Agents, Plan0, Plan) :-
 must_have_agents(M) :-
     (   has_agents(M)
     ->  true
-    ;   throw_error(domain_error(golog_option, concurrent(true)), _,
-                    'the domain has no agent/1: it does not say who acts')
+    ;   located(M, in_program([achieve(_, _)]), Where),
+        format(atom(Text), '~wthe domain has no agent/1: it does not say \c
+                            who acts', [Where]),
+        throw_error(domain_error(golog_option, concurrent(true)), _, Text)
     ).
 
 %!  found_path(+Module, +Start, +End, -Moves) is semidet.

@@ -2,9 +2,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(steps, [agent_of/3]).
 :- use_module(theory,
-              [ clause_place/2, has_agents/1, has_possible_values/1,
-                is_kind/3, place_text/2
-              ]).
+              [has_agents/1, has_possible_values/1, is_kind/3]).
+:- use_module('../errors/error_texts', [clause_place/2, place_first/2]).
 :- use_module('../errors/errors', [throw_error/3]).
 
 /** <module> What a domain says about steps must be possible
@@ -20,7 +19,7 @@ ev3dev_golog_theory:checked(M) :-
     clause(M:Head, Body, Ref),
     wrong(Head, Body, M, Formal, What),
     clause_place(Ref, Place),
-    place_text(Place, Where),
+    place_first(Place, Where),
     functor(Head, Name, Arity),
     format(atom(Text), '~w~w/~w: ~w', [Where, Name, Arity, What]),
     throw_error(Formal, _, Text).

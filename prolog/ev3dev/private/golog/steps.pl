@@ -12,7 +12,8 @@
 :- use_module(context, [context_module/2]).
 :- use_module(effects, [effect/4]).
 :- use_module(progression, [done/4]).
-:- use_module(theory, [clause_place/2, is_sensing_action/2]).
+:- use_module(theory, [is_sensing_action/2]).
+:- use_module('../errors/error_texts', [clause_place/2]).
 
 /** <module> Steps of several actions at the same time
 

@@ -6,6 +6,7 @@
             possible_of/2,              % +Values, -Value
             has_clauses/2,              % +Module, +Head
             is_kind/3,                  % +Kind, +Term, +Module
+            names_of/3,                 % +Kind, +Module, -PredicateIndicator
             names_fluent/2,             % +Term, +Module
             is_fluent/2,                % +Term, +Module
             is_exogenous/2,             % +Action, +Module
@@ -26,12 +27,11 @@
             initial_value/3,            % +Fluent, -Value, +Module
             located/3,                  % +Module, +What, -Place
             proc_place/4,               % +Proc, +Term, +Module, -Place
-            clause_place/2,             % +Ref, -Place
-            place_text/2,               % +Place, -Text
             domain_list/3               % +Sort, +Module, -Values
           ]).
 :- use_module(library(lists), [append/3, member/2, select/4]).
 :- use_module(programs, [has_binder/1, renamed/2]).
+:- use_module('../errors/error_texts', [clause_place/2, place_first/2]).
 :- use_module('../errors/errors', [throw_error/3]).
 
 /** <module> The domain: what a program's module says about its world
@@ -234,6 +234,9 @@ signed(step_rule, together(A, _), A).
 signed(step_rule, excludes(A, _), A).
 signed(step_rule, always(P), P).
 signed(derivation, derived(F, _), F).
+signed(effect, causes_val(_, F, _, _), F).
+signed(effect, causes_true(_, F, _), F).
+signed(effect, causes_false(_, F, _), F).
 
 signature(Module, Signature) :-
     findall(Sign,
@@ -309,6 +312,19 @@ is_kind(Kind, Term, Module) :-
 asked(Kind, Template, Module) :-
     kind(Kind, Head, Template),
     Module:Head.
+
+%!  names_of(+Kind, +Module, -PI) is nondet.
+%
+%   PI is Name/Arity of a Kind that a clause of the domain names.
+
+names_of(Kind, Module, Name/Arity) :-
+    noted(Kind, Name, Arity, Module).
+names_of(action, Module, Name/Arity) :-
+    noted_any(action, Module),
+    has_clauses(Module, primitive_action(_)),
+    clause(Module:primitive_action(A), _),
+    nonvar(A),
+    functor(A, Name, Arity).
 
 %!  names_fluent(+Term, +Module) is semidet.
 %
@@ -597,7 +613,7 @@ conditions_checked(M) :-
         var(Condition),
         ( Body == true ; is_situation(Condition, Body, M) )
     ->  clause_place(Ref, Place),
-        place_text(Place, Where),
+        place_first(Place, Where),
         short(poss(A), Short),
         format(atom(Text), '~w~p: the second argument is a condition, as in \c
                             poss(Action, true), and not a situation. \c
@@ -695,13 +711,29 @@ domain_list(Sort, Module, Values) :-
     (   is_list(Sort)
     ->  Values = Sort
     ;   callable(Sort)
-    ->  findall(Answer, call(Module:Sort, Answer), Answers),
+    ->  catch(findall(Answer, call(Module:Sort, Answer), Answers),
+              error(existence_error(procedure, PI), Context),
+              no_sort(PI, Context, Sort, Module)),
         (   Answers = [List],
             is_list(List)
         ->  Values = List
         ;   Values = Answers
         )
-    ;   throw_error(domain_error(golog_sort, Sort), _, '')
+    ;   located(Module, in_program([Sort]), Where),
+        format(atom(Text), '~wa sort is a list, or the name of a predicate \c
+                            with one argument, and not ~q', [Where, Sort]),
+        throw_error(domain_error(golog_sort, Sort), _, Text)
+    ).
+
+no_sort(PI, Context, Sort, Module) :-
+    (   strip_module(PI, _, Name/Arity),
+        functor(Sort, Name, Arity0),
+        Arity is Arity0+1
+    ->  located(Module, in_program([Sort]), Where),
+        format(atom(Text), '~wthere is no sort ~q: a list, or a predicate \c
+                            ~q', [Where, Sort, Name/Arity]),
+        throw_error(existence_error(golog_condition, Name/Arity), _, Text)
+    ;   throw(error(existence_error(procedure, PI), Context))
     ).
 
 %!  located(+Module, +What, -Text) is det.
@@ -709,28 +741,49 @@ domain_list(Sort, Module, Values) :-
 %   Text is `File:Line: Clause: ` for the first clause of the domain that
 %   What is about, else empty. What is
 %
-%     - in_program(Term)
-%       the first proc/2 in whose body Term stands
+%     - in_program(Terms)
+%       the first proc/2 in whose body the first of Terms stands, else the
+%       first clause with a condition in which it does; or so for another of
+%       Terms
+%     - open(Kind)
+%       the only proc/2 that has a variable without a value in the place of a
+%       Kind, `program` or `condition`
 %     - proc(Call)
 %     - action(Action)
 %     - fluent(Fluent)
 %     - derived(Fluent)
+%     - precondition(Action, Condition)
+%       the poss/2, or the rule for steps, that says so; else a poss/2 of
+%       Action, else its declaration
+%     - executes(Action)
+%       what says how to execute Action, else its declaration
+%     - clause(Heads)
+%       the first clause with one of Heads
 
 located(Module, What, Text) :-
     (   about(What, Module, Head, Ref)
     ->  clause_place(Ref, Place),
-        place_text(Place, Where),
+        place_first(Place, Where),
         short(Head, Short),
         format(atom(Text), '~w~q: ', [Where, Short])
     ;   Text = ''
     ).
 
-about(in_program(Term), Module, proc(Call), Ref) :-
-    has_clauses(Module, proc(_, _)),
-    clause(Module:proc(Call, Body), _, Ref),
-    \+ \+ stands_in(Term, Body),
+about(in_program(Terms), Module, Head, Ref) :-
+    member(Term, Terms),
+    says(Head, Said),
+    has_clauses(Module, Head),
+    clause(Module:Head, _, Ref),
+    \+ \+ stands_in(Term, Said),
     !.
-about(proc(Call), Module, proc(Call), Ref) :-
+about(open(Kind), Module, proc(Call, _), Ref) :-
+    has_clauses(Module, proc(_, _)),
+    findall(Call-Ref,
+            ( clause(Module:proc(Call, Body), true, Ref),
+              \+ \+ ( numbervars(Call, 0, _),
+                      is_open(Kind, Body) ) ),
+            [Call-Ref]).
+about(proc(Call), Module, proc(Call, _), Ref) :-
     has_clauses(Module, proc(_, _)),
     clause(Module:proc(Call, _), _, Ref),
     !.
@@ -739,9 +792,78 @@ about(action(Action), Module, Head, Ref) :-
 about(fluent(Fluent), Module, Head, Ref) :-
     clause_about(Fluent, [ prim_fluent(Term), rel_fluent(Term),
                            fun_fluent(Term) ], Term, Module, Head, Ref).
-
 about(derived(Fluent), Module, Head, Ref) :-
     clause_about(Fluent, [derived(Term, _)], Term, Module, Head, Ref).
+about(precondition(Action, Condition), Module, Head, Ref) :-
+    (   has_situations(Module)
+    ->  Head = poss(Action, '$VAR'('S')),
+        clause(Module:Head, _, Ref)
+    ;   rule_for_steps(Condition, Heads),
+        about(clause(Heads), Module, Head, Ref)
+    ->  true
+    ;   about(clause([poss(Action, Condition)]), Module, Head, Ref)
+    ->  true
+    ;   clause_about(Action, [poss(Term, _)], Term, Module, Head, Ref)
+    ->  true
+    ;   about(action(Action), Module, Head, Ref)
+    ),
+    !.
+about(executes(Action), Module, Head, Ref) :-
+    (   about(clause([robot_sense(Action, _, _), robot_action(Action, _)]),
+              Module, Head, Ref)
+    ->  true
+    ;   about(action(Action), Module, Head, Ref)
+    ).
+about(clause(Heads), Module, Head, Ref) :-
+    member(Head, Heads),
+    has_clauses(Module, Head),
+    clause(Module:Head, _, Ref),
+    !.
+
+%   Condition may be a rule for steps, as in refused/3 of steps.pl.
+
+rule_for_steps(together(A, B), [together(A, B)]).
+rule_for_steps(excludes(A, B), [excludes(A, B), excludes(B, A)]).
+rule_for_steps(always(P), [always(P)]).
+rule_for_steps(one_at_a_time(Agent, _, _), [agent(Agent)]).
+rule_for_steps(one_value(_, A, _), [prim_action(A)]).
+rule_for_steps(agent_of(A), [prim_action(A)]).
+rule_for_steps(senses(A), [senses(A, _), senses(A, _, _Fluent, _, _)]).
+
+%   says(?Head, ?Said): Said is the program or the condition in a clause.
+
+says(proc(_, Said), Said).
+says(poss(_, Said), Said).
+says(causes_val(_, _, _, Said), Said).
+says(causes_true(_, _, Said), Said).
+says(causes_false(_, _, Said), Said).
+says(causes(_, _, _, Said), Said).
+says(senses(_, _, _Fluent, _, Said), Said).
+says(settles(_, _, _Fluent, _, Said), Said).
+says(rejects(_, _, _Fluent, _, Said), Said).
+says(derived(_, Said), Said).
+says(always(Said), Said).
+
+is_open(Kind, Body) :-
+    (   place_for(Kind, Body, Part),
+        var(Part)
+    ->  true
+    ;   compound(Body),
+        arg(_, Body, Part),
+        nonvar(Part),
+        is_open(Kind, Part)
+    ->  true
+    ).
+
+place_for(condition, ?(P), P).
+place_for(condition, if(P, _, _), P).
+place_for(condition, while(P, _), P).
+place_for(condition, interrupt(P, _), P).
+place_for(program, [E|_], E).
+place_for(program, if(_, E, _), E).
+place_for(program, if(_, _, E), E).
+place_for(program, while(_, E), E).
+place_for(program, interrupt(_, E), E).
 
 clause_about(About, Heads, Term, Module, Head, Ref) :-
     functor(About, Name, Arity),
@@ -762,21 +884,13 @@ stands_in(Term, Body) :-
 
 short(Head, Short) :-
     Head =.. [Name, Term|_],
-    (   compound(Term)
+    (   var(Term)
+    ->  functor(Head, _, Arity),
+        Short = Name/Arity
+    ;   compound(Term)
     ->  functor(Term, TermName, Arity),
         Short =.. [Name, TermName/Arity]
-    ;   Short = Head
-    ).
-
-%!  clause_place(+Ref, -Place) is det.
-%
-%   Place is File:Line of a clause that was read from a file, else `none`.
-
-clause_place(Ref, Place) :-
-    (   clause_property(Ref, file(File)),
-        clause_property(Ref, line_count(Line))
-    ->  Place = File:Line
-    ;   Place = none
+    ;   Short =.. [Name, Term]
     ).
 
 %!  proc_place(+Proc, +Term, +Module, -Place) is det.
@@ -803,11 +917,3 @@ proc_place(Proc, Term, Module, Place) :-
         assertz(kept_place(Proc, Name/Arity, Module, Place0))
     ),
     Place = Place0.
-
-%!  place_text(+Place, -Text) is det.
-%
-%   Text is `File:Line: `, or empty.
-
-place_text(File:Line, Text) :-
-    format(atom(Text), '~w:~w: ', [File, Line]).
-place_text(none, '').

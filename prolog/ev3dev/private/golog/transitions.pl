@@ -19,7 +19,8 @@
 :- use_module(library(random), [random_permutation/2]).
 :- use_module(context,
               [ blocked/2, context_module/2, context_option/2, entered/4,
-                is_recorded/1, noted/2, recorded_step/3, stepping/2
+                is_recorded/1, noted/2, place_in/3, recorded_step/3,
+                stepping/2
               ]).
 :- use_module(conditions, [chosen/3, domain_value/4, holds/3]).
 :- use_module(progression, [done/4]).
@@ -63,7 +64,7 @@ is_final(E, S, X) :-
 
 final(E, S, X) :-
     (   var(E)
-    ->  unbound_program
+    ->  unbound_program(X)
     ;   E = [First|Rest]
     ->  is_final(First, S, X),
         is_final(Rest, S, X)
@@ -157,7 +158,7 @@ ends(for(V, D, E), S, X) :-
 
 step(E, S, E1, S1, X) :-
     (   var(E)
-    ->  unbound_program
+    ->  unbound_program(X)
     ;   construct(E)
     ->  step_construct(E, S, E1, S1, X)
     ;   context_module(X, M),
@@ -176,9 +177,11 @@ domain_names(E, M) :-
     ;   is_kind(action, E, M)
     ).
 
-unbound_program :-
-    throw_error(instantiation_error, _,
-                'a part of a program is still a variable when it is to run').
+unbound_program(X) :-
+    place_in(X, program, Where),
+    format(atom(Text), '~wa part of a program is still a variable when it \c
+                        is to run', [Where]),
+    throw_error(instantiation_error, _, Text).
 
 unknown_program(E, X) :-
     context_module(X, M),
@@ -189,7 +192,12 @@ unknown_program(E, X) :-
     ->  What = E/0
     ;   What = E
     ),
-    located(M, in_program(E), Where),
+    (   What = Name/Arity
+    ->  functor(Named, Name, Arity),
+        Terms = [E, Named]
+    ;   Terms = [E]
+    ),
+    located(M, in_program(Terms), Where),
     hint(E, M, Hint),
     format(atom(Text), '~wthere is no construct, procedure or action ~q~w',
            [Where, What, Hint]),
@@ -496,7 +504,7 @@ step_construct(together(As0), S, [], S1, X) :-
 actions_now([], [], _, _, _).
 actions_now([A0|As0], [A|As], S, X, M) :-
     (   var(A0)
-    ->  unbound_program
+    ->  unbound_program(X)
     ;   is_kind(action, A0, M)
     ->  action_now(A0, A, S, X, M)
     ;   unknown_program(A0, X)

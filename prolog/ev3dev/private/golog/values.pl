@@ -6,6 +6,7 @@
             known_value/4,              % +Fluent, -Value, +Situation,
                                         % +Context
             known_or_declared/3,        % +Fluent, +Situation, +Module
+            asks_unknown/3,             % +Condition, +Situation, +Context
             evaluated_arguments/4,      % +Term, -Evaluated, +Situation,
                                         % +Context
             fluents_now/3               % +Situation, +Context, -Pairs
@@ -19,7 +20,8 @@
               ]).
 :- use_module(situation, [initial_situation/1]).
 :- use_module(theory,
-              [ initial_value/3, is_fluent/2, is_kind/3,
+              [ has_clauses/2, has_possible_values/1, initial_value/3,
+                is_fluent/2, is_kind/3,
                 is_set_by_exogenous/2, located/3
               ]).
 
@@ -93,6 +95,8 @@ value(F, V, Situation, Context, M) :-
     (   V1 == '$initial'
     ->  (   initial_value(F, V3, M)
         ->  true
+        ;   may_have(F, Vs0, M)
+        ->  V3 = '$possible'(Vs0)
         ;   no_initial_value(F, M, Context),
             fail
         )
@@ -124,7 +128,53 @@ open_value([open(C1, F1, V1, Condition, S1)|Open], C, F, V, Context) :-
     ;   open_value(Open, C, F, V, Context)
     ).
 
-%   A fluent without a value: no condition about it holds. That is as it
+%   may_have(+Fluent, -Values, +Module) is semidet: in a domain with possible
+%   values, Fluent has no value before it is sensed, but these are all that it
+%   may have.
+
+may_have(F, Vs, M) :-
+    is_still_unknown(F, M),
+    (   is_kind(relational, F, M)
+    ->  Vs = [false, true]
+    ;   has_clauses(M, sensed_values(_, _)),
+        M:sensed_values(F, Vs0),
+        sort(Vs0, Vs),
+        Vs = [_, _|_]
+    ->  true
+    ).
+
+is_still_unknown(F, M) :-
+    has_possible_values(M),
+    (   is_kind(sensed, F, M)
+    ->  true
+    ;   is_kind(uncertain, F, M)
+    ).
+
+%!  asks_unknown(+Condition, +Situation, +Context) is semidet.
+%
+%   In a domain with possible values Condition asks for a fluent that has none
+%   before it is sensed.
+
+asks_unknown(P, S, Context) :-
+    context_module(Context, M),
+    has_possible_values(M),
+    unknown_in(P, S, Context, M).
+
+unknown_in(P, S, Context, M) :-
+    (   callable(P),
+        ground(P),
+        is_kind(fluent, P, M),
+        is_still_unknown(P, M),
+        is_fluent(P, M),
+        \+ value(P, _, S, Context, M)
+    ->  true
+    ;   compound(P),
+        arg(_, P, Q),
+        unknown_in(Q, S, Context, M)
+    ->  true
+    ).
+
+%   A fluent without a value: a condition about it is false. That is as it
 %   should be if its value comes from outside; else it is most likely
 %   forgotten, or the program asks before it looks. A plan may well do that,
 %   as it does not look; it is made again then.
@@ -135,6 +185,8 @@ no_initial_value(F, M, Context) :-
     ;   Kind = warning
     ),
     (   is_kind(initial, F, M)
+    ->  true
+    ;   is_still_unknown(F, M)
     ->  true
     ;   is_kind(sensed, F, M)
     ->  (   is_recorded(Context)

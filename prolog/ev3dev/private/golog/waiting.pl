@@ -3,6 +3,7 @@
             run_on_bricks/4,            % +Parts, +For, :Watch, -Outcome
             causes_wanted/1,            % +Robot
             followed/1,                 % +Event
+            report_again/0,
             for_causes/2,               % +Causes, :Goal
             guarded/2,                  % +Name, :Goal
             pause/4,                    % +Robot, +Queue, +Deadline,
@@ -12,6 +13,7 @@
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(queue, [queue_wait/3]).
+:- use_module(theory, [located/3]).
 
 /** <module> The waits of library(ev3dev/golog)
 
@@ -81,20 +83,46 @@ run_on_bricks(Parts, For, Watch, Outcome) :-
 :- public run_part/2.
 
 run_part(part(Agent, Action, Goal), For) :-
-    catch(ev3dev_bricks:bricks_do([Agent],
-                                  ev3dev_golog_waiting:run_for(For, Goal)),
+    catch(( bricks_do_part(Agent, For, Goal)
+          ->  Done = true
+          ;   Done = false
+          ),
           error(Formal, Where),
-          part_failed(Formal, Where, Agent, Action)).
+          part_failed(Formal, Where, Agent, Action, Goal, Done)),
+    (   Done == error
+    ->  fail
+    ;   retractall(reported(Agent, _)),
+        Done == true
+    ).
 
-%   What is wrong in the program is an error of the run.
+bricks_do_part(Agent, For, Goal) :-
+    ev3dev_bricks:bricks_do([Agent],
+                            ev3dev_golog_waiting:run_for(For, Goal)).
 
-part_failed(Formal, Where, Agent, Action) :-
+%   What is wrong in the program is an error of the run. Else it is reported
+%   once until a part of Agent ends without an error: a program that tries
+%   again and again while a brick is gone would print nothing else.
+
+:- dynamic reported/2.                  % Agent, Formal
+:- volatile reported/2.
+
+part_failed(Formal, Where, Agent, Action, M:_, error) :-
     (   is_mistake(Formal)
     ->  throw(error(Formal, Where))
-    ;   Error = error(Formal, Where),
-        print_message(warning, golog(part_failed(Agent, Action, Error))),
-        fail
+    ;   reported(Agent, Formal)
+    ->  true
+    ;   assertz(reported(Agent, Formal)),
+        located(M, clause([robot_action(Agent, Action, _)]), Place),
+        print_message(warning, golog(part_failed(Place, Agent, Action,
+                                                 error(Formal, Where))))
     ).
+
+%!  report_again is det.
+%
+%   A run begins: what does not work is reported once again.
+
+report_again :-
+    retractall(reported(_, _)).
 
 is_mistake(instantiation_error).
 is_mistake(type_error(_, _)).

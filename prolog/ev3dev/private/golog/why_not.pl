@@ -1,6 +1,8 @@
 :- module(ev3dev_golog_why_not,
           [ hindrance/5,                % +Action, +Program, -Why, +Situation,
                                         % +Context
+            more_words/4,               % +Why, +Action, +Module, -Text
+            undeclared_words/4,         % +Kind, +Term, +Module, -Text
             fluent_why/5                % +Fluent, +History, -Why, +Situation,
                                         % +Context
           ]).
@@ -15,13 +17,15 @@
 :- use_module(values, [evaluated_arguments/4, fluent_value/4, value/5]).
 :- use_module(programs, [fresh/4, in_books/2, parts/5]).
 :- use_module(theory,
-              [ clause_place/2, has_clauses/2, has_step_rules/1,
-                is_fluent/2, is_kind/3,
+              [ has_clauses/2, has_situations/1, has_step_rules/1,
+                is_exogenous/2, is_fluent/2, is_kind/3,
                 located_precondition/4, precondition/3, proc_body/3,
                 restored/3
               ]).
 :- use_module(steps, [step_after/5]).
 :- use_module(transitions, [step/5]).
+:- use_module(hints, [meant_words/4]).
+:- use_module('../errors/error_texts', [clause_place/2, place_text/2]).
 
 /** <module> Why an action is not done, and why a fluent has its value
 */
@@ -52,8 +56,11 @@ hindrance(A, E, Why, S, X) :-
     ).
 
 not_possible(A, Why, S, X, M) :-
-    (   \+ is_kind(action, A, M)
-    ->  Why = no_action
+    (   \+ is_declared(action, A, M)
+    ->  (   static_failure(A, Failure, M)
+        ->  Why = not_possible([Failure])
+        ;   Why = no_action
+        )
     ;   \+ possible(A, S, X, M),
         findall(Failure, failure(A, Failure, S, X, M), Failures),
         Why = not_possible(Failures)
@@ -78,12 +85,109 @@ possible(A, S, X, M) :-
     precondition(A, Condition, M),
     holds(Condition, S, X).
 
-%   Each clause of poss/2 for the action, and what is false in it
+is_declared(Kind, Term, M) :-
+    is_kind(Kind, Term, M),
+    (   declaration(Kind, Term, Head),
+        has_clauses(M, Head),
+        call(M:Head)
+    ->  true
+    ).
+
+declaration(action, A, prim_action(A)).
+declaration(fluent, F, prim_fluent(F)).
+declaration(fluent, F, rel_fluent(F)).
+declaration(fluent, F, fun_fluent(F)).
+
+%   Each clause of poss/2 for the action, and what is false in it: a goal of
+%   its body, or a part of its condition.
 
 failure(A, failure(Part, Values, Place), S, X, M) :-
-    located_precondition(A, Condition, Place, M),
-    false_part(Condition, Part, S, X),
-    values_in(Part, Values, S, X).
+    (   has_situations(M)
+    ->  located_precondition(A, Condition, Place, M),
+        Body = true
+    ;   has_clauses(M, poss(_, _)),
+        clause(M:poss(A, Condition), Body, Ref),
+        clause_place(Ref, Place)
+    ),
+    (   \+ call(M:Body)
+    ->  false_goal(Body, M, Part),
+        Values = []
+    ;   call(M:Body),
+        false_part(Condition, Part, S, X),
+        values_in(Part, Values, S, X)
+    ).
+
+%   What does not change of a precondition in PDDL is a part of the
+%   declaration.
+
+static_failure(A, failure(Part, [], Place), M) :-
+    is_kind(action, A, M),
+    clause(M:prim_action(A), Body, _),
+    false_goal(Body, M, Part),
+    Part = pddl_fact(_),
+    clause(M:poss(A, _), _, Ref),
+    clause_place(Ref, Place),
+    !.
+
+%   false_goal(+Body, +Module, -Part) is semidet: Part is the first goal of
+%   Body that fails.
+
+false_goal(Body, M, Part) :-
+    (   Body = (A, B)
+    ->  (   call(M:A)
+        ->  false_goal(B, M, Part)
+        ;   false_goal(A, M, Part)
+        )
+    ;   \+ call(M:Body),
+        Part = Body
+    ).
+
+%!  more_words(+Why, +Action, +Module, -Text) is det.
+%!  undeclared_words(+Kind, +Term, +Module, -Text) is det.
+%
+%   Text goes on where the message of Why for Action ends: why the domain has
+%   no such action, or has no precondition for it. The second one says so of a
+%   Term that is no Kind, `action` or `fluent`.
+
+more_words(Why, A, M, Text) :-
+    (   Why = part(Part, Why1)
+    ->  more_words(Why1, Part, M, Text)
+    ;   Why == no_action
+    ->  undeclared_words(action, A, M, Text)
+    ;   Why == not_possible([]),
+        functor(A, Name, Arity),
+        functor(General, Name, Arity),
+        has_clauses(M, poss(_, _)),
+        clause(M:poss(General, _), _, Ref)
+    ->  clause_place(Ref, Place),
+        place_text(Place, Where),
+        format(atom(Text), ', only for other arguments~w', [Where])
+    ;   Text = ''
+    ).
+
+undeclared_words(Kind, Term, M, Text) :-
+    (   is_kind(Kind, Term, M),
+        functor(Term, Name, Arity),
+        functor(General, Name, Arity),
+        declaration(Kind, General, Head),
+        has_clauses(M, Head),
+        clause(M:Head, _, Ref)
+    ->  clause_place(Ref, Place),
+        place_text(Place, Where),
+        (   declaration(Kind, Term, Head1),
+            has_clauses(M, Head1),
+            clause(M:Head1, Body, Ref1),
+            false_goal(Body, M, Part)
+        ->  clause_place(Ref1, Place1),
+            place_text(Place1, Where1),
+            format(atom(Text), ': ~p does not hold~w', [Part, Where1])
+        ;   format(atom(Text), ', only with other arguments~w', [Where])
+        )
+    ;   Kind == action,
+        is_exogenous(Term, M)
+    ->  Text = ': it is an exogenous one, which happens by itself'
+    ;   meant_words(Kind, Term, M, Text)
+    ).
 
 %   false_part(+Condition, -Part, +Situation, +Context) is semidet: Part is
 %   that of a conjunction which is false, if those before it hold.

@@ -19,7 +19,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(theory,
               [ has_clauses/2, has_possible_values/1, is_sensing_action/2,
-                rules_out/2
+                located/3, rules_out/2
               ]).
 :- use_module(queue,
               [queue_end/1, queue_new/1, queue_put/2, queue_take/2]).
@@ -390,7 +390,8 @@ dry(A, M, Outcome, Value) :-
 dry(A, Message, M, done, Value) :-
     (   is_sensing_action(A, M)
     ->  ask(A, Value)
-    ;   print_message(informational, golog(Message))
+    ;   located(M, action(A), Where),
+        print_message(informational, golog(placed(Where, Message)))
     ).
 
 %!  run_directly(+Action, +Module, -Outcome, -Value) is det.

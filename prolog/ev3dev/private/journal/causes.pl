@@ -5,7 +5,8 @@
             follow_no_more/0,
             causes/2,                   % +Number, -Causes
             active_clause/1,            % -Clause
-            explained/3                 % +What, -Why, -Message
+            explained/3,                % +What, -Why, -Message
+            misspelt/2                  % +What, -Text
           ]).
 :- use_module('../errors/errors', [in_own_name/1]).
 :- use_module('../native/native', [cause_/2, cause_active_/1]).
@@ -74,6 +75,13 @@ begins(Cause) :-
 %   in words. A library that knows adds a clause.
 
 :- multifile explained/3.
+
+%!  misspelt(+What, -Text) is semidet.
+%
+%   What is no fluent, or no such thing, of a library, which says in Text what
+%   may be meant. The library adds a clause.
+
+:- multifile misspelt/2.
 
 note(Number, Former, Cause) :-
     in_own_name(assertz(cause(Number, Former, Cause))),  % none that is cyclic
