@@ -373,7 +373,7 @@ test(an_exogenous_action_of_the_robot_is_seen_in_a_search,
                                           interrupt(beeps = 0,
                                                     search([star(halt),
                                                             ?(done(drive(9)))])) ]),
-                                   [history(H), timeout(9)]) )) ),
+                                   [history(H), timeout(120)]) )) ),
              [clock(realtime)]).
 test(the_journal_knows_step_and_action, Cause == golog(1, ahead, true)) :-
     with_rover(M, ( indigolog(M:ahead),

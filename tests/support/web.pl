@@ -235,5 +235,6 @@ go_on(Strangers, More) :-
     ;   go_on(Strangers, More)
     ).
 
+%   A stream that was closed at the other end throws, or just fails.
 send(Out, Text) :-
-    catch(( write(Out, Text), flush_output(Out) ), error(_, _), true).
+    ignore(catch(( write(Out, Text), flush_output(Out) ), error(_, _), true)).

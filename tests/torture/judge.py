@@ -259,27 +259,42 @@ class Run:
     def wait(self, seconds, condition):
         """Waits until the condition holds, and says whether it does. The time in which
         the program or the simulation waits for a processor does not count."""
-        began, before, looked = time.monotonic(), self.delay(), 0.0
+        began, before, looked, waiting = time.monotonic(), self.delay(), 0.0, None
         while not condition():
             passed = time.monotonic() - began
             if passed >= seconds and passed >= looked + 0.2:
                 looked = passed
-                if max(passed - (self.delay() - before), SHARE * passed) >= seconds:
+                if max(passed - (self.delay() - before), SHARE * passed) < seconds:
+                    waiting = None
+                elif waiting is None:
+                    waiting = self.waiting()
+                elif not waiting & self.waiting():
                     return False
             self.look()
         return True
 
     def delay(self):
         """For how many seconds threads of these processes have waited for a processor."""
+        self.delays.update((thread, int(fields[1])) for thread, _, fields in self.threads())
+        return sum(self.delays.values()) / 1e9
+
+    def waiting(self):
+        """The threads that could run, each with what it has run. The kernel counts a time of
+        waiting for a processor when it is over."""
+        return {(thread, *fields) for thread, state, fields in self.threads() if state == "R"}
+
+    def threads(self):
+        """Of these processes: each with its state, and what the kernel counts of its turns."""
         server = [self.stage.mount.server.pid] if self.stage.mount else []
         for pid in [*server, *self.stage.descendants()]:
             try:
                 for thread in os.listdir(f"/proc/{pid}/task"):
                     with open(f"/proc/{pid}/task/{thread}/schedstat", encoding="ascii") as file:
-                        self.delays[thread] = int(file.read().split()[1])
+                        fields = file.read().split()
+                    with open(f"/proc/{pid}/task/{thread}/stat", encoding="latin-1") as file:
+                        yield thread, file.read().rpartition(")")[2].split()[0], fields
             except (OSError, IndexError):
                 pass
-        return sum(self.delays.values()) / 1e9
 
     def send(self, number):
         """Sends a signal to the process, or to its group."""

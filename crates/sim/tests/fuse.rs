@@ -42,6 +42,7 @@ impl Bench {
         let mount = match Mount::new(Arc::clone(&shared), &root) {
             Ok(mount) => mount,
             Err(error) => {
+                fs::remove_dir(&root).unwrap();
                 eprintln!("skipped: {error}");
                 return None;
             }
@@ -224,6 +225,7 @@ fn mounted_devices(name: &str) -> Option<(Mount, Arc<Shared>, PathBuf)> {
     match Mount::dev(Arc::clone(&shared), &root) {
         Ok(mount) => Some((mount, shared, root)),
         Err(error) => {
+            fs::remove_dir(&root).unwrap();
             eprintln!("skipped: {error}");
             None
         }
