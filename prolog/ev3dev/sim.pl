@@ -184,6 +184,7 @@ crowd_started(Robots, World, LocatedWorld, WorldFacts, Native, Options) :-
             Pairs),
     pairs_keys(Pairs, Names),
     must_be_new_names(Names),
+    must_have_starts(World, WorldFacts, Names),
     setup_call_cleanup(
         findall(robot(Brick, Name, Facts),
                 ( member(Name-robot(_, Located), Pairs),
@@ -222,6 +223,17 @@ robot_named(Item, Name, Robot, Located) :-
         located_facts(robot, Robot, Located)
     ;   throw_error(type_error(pair, Item), _,
                     'a robot is Name-Robot, as bob-default')
+    ).
+
+must_have_starts(World, WorldFacts, Names) :-
+    (   member(Name, Names),
+        \+ memberchk(start(Name, _, _, _), WorldFacts)
+    ->  format(atom(Why),
+               'has no place for the robot ~q: add start(~q, X, Y, Heading)',
+               [Name, Name]),
+        source_location(world, World, Location),
+        throw_located(domain_error(possible_geometry, World), Location, Why)
+    ;   true
     ).
 
 must_be_faultless_crowd(Fault, World, Pairs) :-

@@ -366,7 +366,7 @@ test(what_is_wrong_with_them,
     duel(World),
     catch(sim_start(World, [robots(Robots)]), error(Found, _), true),
     findall(Name, brick(Name), Left).
-test(a_world_needs_a_start_for_each, true(Text-Left == 'start(eva, X, Y, Heading) is missing'-[local])) :-
+test(a_world_needs_a_start_for_each, true(Text-Left == 'has no place for the robot eva: add start(eva, X, Y, Heading)'-[local])) :-
     duel(World),
     catch(sim_start(World, [robots([eva-default])]), error(_, context(_, Text)), true),
     findall(Name, brick(Name), Left).

@@ -127,7 +127,8 @@ test(a_refused_world_leaves_the_old_one) :-
 complaint(Text, Options, Formal, Message) :-
     with_file(Text, File,
               ( catch(sim_start(File, Options), error(Formal, Context), true),
-                message_to_codes(error(Formal, Context), File, Message) )).
+                message_to_codes(error(Formal, Context), File, Message) )),
+    assertion(\+ sub_atom(Message, _, _, _, 'expected, found')).
 
 message_to_codes(Term, File, Message) :-
     message_to_lines(Term, Lines),
@@ -152,6 +153,11 @@ test(unknown_fact_with_file_and_line) :-
     Formal == domain_error(world_fact, wal(0, 0, 1, 1)),
     says(Message, 'FILE:3:2: '),
     says(Message, 'a world has: wall, box, ').
+test(robots_without_a_start) :-
+    complaint("bounds(0, 0, 99, 99).\nstart(anna, 50, 50, 0).\n",
+              [robots([anna-default, bob-default])], Formal, Message),
+    Formal = domain_error(possible_geometry, _),
+    says(Message, 'FILE: FILE has no place for the robot bob: add start(bob, X, Y, Heading)').
 test(fact_with_too_many_arguments) :-
     complaint("beacon(0, 0, 1, 2).\n", [], Formal, Message),
     Formal == domain_error(world_fact, beacon(0, 0, 1, 2)),
@@ -165,7 +171,7 @@ test(impossible_geometry) :-
     complaint("\nbox(30, 30, 0, 5).\n", [], Formal, Message),
     Formal == domain_error(possible_geometry, box(30, 30, 0, 5)),
     says(Message, 'FILE:2:0: '),
-    says(Message, 'needs a width and a depth above 0').
+    says(Message, 'FILE:2:0: box(30,30,0,5) needs a width and a depth above 0').
 test(bounds_that_are_too_far) :-
     complaint("bounds(0, 0, 10000000, 10).\n", [], _, Message),
     says(Message, 'has a number beyond 1000000').
@@ -179,7 +185,7 @@ test(a_box_where_the_robot_starts_by_default) :-
     complaint("floor(red).\nbox(0, 0, 10, 10).\n", [], Formal, Message),
     Formal == domain_error(possible_geometry, box(0, 0, 10, 10)),
     says(Message, 'FILE:2:0: '),
-    says(Message, 'robot at 0, 0 is inside box(0, 0, 10, 10, 0)').
+    says(Message, 'FILE:2:0: box(0,0,10,10): robot at 0, 0 is inside box(0, 0, 10, 10, 0)').
 test(two_starts_in_a_map) :-
     complaint("map(20, [\"\", \"S#\", \"v.\", \"^.\"]).\n", [], Formal, Message),
     Formal == domain_error(map_row, "v."),

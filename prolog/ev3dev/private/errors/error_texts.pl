@@ -7,6 +7,7 @@
             clause_place/2,             % +Clause, -Place
             place_text/2,               % +Place, -Text
             place_first/2,              % +Place, -Text
+            item_said/3,                % +Item, +Text, -Said
             is_word/1,                  % +Atom
             nth/2                       % +Place, -Nth
           ]).
@@ -166,6 +167,21 @@ quoted([], []).
 quoted([Value|Values], [Atom|Atoms]) :-
     format(atom(Atom), '~w', [Value]),
     quoted(Values, Atoms).
+
+%!  item_said(+Item, +Text, -Said) is det.
+%
+%   What the simulator says of an Item: Text begins with a verb, or has a
+%   subject of its own.
+
+item_said(Item, Text, Said) :-
+    (   one_of([ is, has, have, needs, must, stands, lies, does, cannot ],
+               Verb),
+        atom_concat(Verb, ' ', Begin),
+        sub_atom(Text, 0, _, _, Begin)
+    ->  Between = ' '
+    ;   Between = ': '
+    ),
+    format(atom(Said), '~w~w~w', [Item, Between, Text]).
 
 %!  clause_place(+Clause, -Place) is det.
 %!  place_text(+Place, -Text) is det.

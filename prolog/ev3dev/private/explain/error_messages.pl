@@ -5,7 +5,8 @@
           ]).
 :- use_module('../errors/errors', [named_called/2]).
 :- use_module('../basics/small_lists', [one_of/2]).
-:- use_module('../errors/error_texts', [is_word/1, nth/2, shown/2]).
+:- use_module('../errors/error_texts',
+              [is_word/1, item_said/3, nth/2, shown/2]).
 :- use_module('../errors/frames', [in_pack/3, is_of_system/1, is_public/2]).
 :- use_module(unknown_procedures,
               [form_of/2, known_mistake/1, unqualified/2]).
@@ -54,20 +55,16 @@ prolog:message(error(Formal, Context)) -->
       atom(Text),
       is_ours(Called)
     },
-    lead(Formal, Called, Text, Said),
-    about(Formal),
+    lead(Formal, Called, Text, Said0),
+    { about(Formal, Said0, Said) },
     [ '~w'-[Said] ].
 
-%   What is said of an item of the simulation begins with its verb.
-
-about(Formal) -->
-    { nonvar(Formal),
-      Formal = domain_error(possible_geometry, Item)
-    },
-    !,
-    [ '~w '-[Item] ].
-about(_) -->
-    [].
+about(Formal, Text, Said) :-
+    (   nonvar(Formal),
+        Formal = domain_error(possible_geometry, Item)
+    ->  item_said(Item, Text, Said)
+    ;   Said = Text
+    ).
 
 %   What was called, with the names of its arguments if one of them is to
 %   blame, or may be in another place than a student believes. Said is Text,

@@ -8,7 +8,7 @@
 :- use_module(directory, [readable_file/3]).
 :- use_module('../checks/checks', [must_be/2]).
 :- use_module('../errors/errors', [in_own_name/1, throw_error/3]).
-:- use_module('../errors/error_texts', [shown/2]).
+:- use_module('../errors/error_texts', [item_said/3, shown/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../native/native', [sim_check_/2]).
 
@@ -142,18 +142,21 @@ throw_located(Formal, Location, Why) :-
     throw(error(Formal, fact(Location, Why))).
 
 :- multifile
-    prolog:message_location//1,
-    prolog:message_context//1.
+    prolog:message//1,
+    prolog:message_location//1.
+
+prolog:message(error(Formal, fact(Location, Why))) -->
+    { nonvar(Formal),
+      (   Formal = domain_error(Domain, Fact),
+          memberchk(Domain, [possible_geometry, world_fact, robot_fact])
+      ->  item_said(Fact, Why, Said)
+      ;   Said = Why
+      )
+    },
+    prolog:message_location(fact(Location, Why)),
+    [ '~w'-[Said] ].
 
 prolog:message_location(fact(file(File, Line, LinePosition, _), _)) -->
     [ '~w:~d:~d: '-[File, Line, LinePosition] ].
 prolog:message_location(fact(file(File), _)) -->
     [ '~w: '-[File] ].
-
-prolog:message_context(fact(_, Why)) -->
-    (   { nonvar(Why),
-          Why \== ''
-        }
-    ->  [ ' (~w)'-[Why] ]
-    ;   []
-    ).

@@ -13,6 +13,7 @@
 :- use_module('../native/native',
               [ journal_new_/1, view_log_/6, view_printed_/3,
                 view_serves_/0 ]).
+:- use_module('../errors/error_texts', [item_said/3]).
 :- use_module('../explain/error_messages', [in_words//1]).
 
 /** <module> The log of the page
@@ -213,7 +214,7 @@ error_text(error(Formal, context(_, Message)), Text) :-
     !,
     (   compound(Formal),
         Formal = domain_error(possible_geometry, Item)
-    ->  format(string(Text), "~w ~w", [Item, Message])
+    ->  item_said(Item, Message, Text)
     ;   format(string(Text), "~w", [Message])
     ).
 error_text(Error, Text) :-
