@@ -107,6 +107,17 @@ test(an_uncaught_ball_is_that_of_the_goal, throws(my_ball)) :-
 test(errors_name_what_the_program_called,
      error(type_error(_, _), context(motor_run/2, _))) :-
     in_room(reasoning(motor_run(outB, fast))).
+test(an_error_is_in_words) :-
+    catch(in_room(reasoning(motor_run(outB, fast))), _, true),
+    reasoning_text(Text),
+    sub_string(Text, _, _, _, "throws an error: motor_run(Port, Speed): Speed must be a number, not fast"),
+    !,
+    \+ sub_string(Text, _, _, _, "error(").
+test(an_error_has_lines_of_78_characters, true(Wide == [])) :-
+    catch(in_room(reasoning(motor_run(outB, as_fast_as_the_motor_can_turn_on_this_floor))), _, true),
+    reasoning_text(Text),
+    split_string(Text, "\n", "", Lines),
+    findall(Line, ( member(Line, Lines), string_length(Line, Length), Length > 78 ), Wide).
 test(an_unknown_procedure_is_that_of_the_program,
      error(existence_error(procedure, nowhere/0), _)) :-
     reasoning(user:call(nowhere)).

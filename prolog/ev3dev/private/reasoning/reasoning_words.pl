@@ -9,6 +9,7 @@
 :- use_module('../basics/fields',
               [fields/1, goal_expansion/2, term_expansion/2]).
 :- use_module('../basics/small_lists', [and_list/2]).
+:- use_module('../errors/message_text', [message_text/2]).
 :- use_module(outline, [episodes/1, outline/2]).
 :- use_module(recorder, [lost/1, moment/4]).
 :- use_module(why_false, [clause_words/2, goal_words/2, why_false/2]).
@@ -154,8 +155,14 @@ way_remark(ways(Count), State, Text) :-
 
 state_remark(false, [_|_], fault, "fails").
 state_remark(error(Ball), _, fault, Text) :-
-    goal_words(Ball, Words),
-    format(string(Text), 'throws ~w', [Words]).
+    (   Ball = error(Formal, _),
+        nonvar(Formal)
+    ->  message_text(Ball, Words0),
+        normalize_space(string(Words), Words0),
+        format(string(Text), 'throws an error: ~w', [Words])
+    ;   goal_words(Ball, Words),
+        format(string(Text), 'throws ~w', [Words])
+    ).
 state_remark(left, _, plain, "interrupted").
 state_remark(running, _, plain, "runs").
 state_remark(open, Below, plain, "may have more answers") :-
@@ -193,7 +200,9 @@ laid_out(Begin, Remarks, Line) :-
     (   Length1+2+Length2 =< Width
     ->  format(string(Line), '~w~t~w~*|', [Begin, Text, Width])
     ;   (   Line = Begin
-        ;   format(string(Line), '~t~w~*|', [Text, Width])
+        ;   Length2 =< Width
+        ->  format(string(Line), '~t~w~*|', [Text, Width])
+        ;   wrapped(Text, Line)
         )
     ).
 
