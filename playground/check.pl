@@ -16,7 +16,7 @@
 :- use_module('../prolog/ev3dev/private/marking/run',
               [marked_run/4, marking_exercise/2]).
 :- use_module('../prolog/ev3dev/private/native/native',
-              [view_pace_/1, view_stop_motors_/0]).
+              [stop_started_/0, view_pace_/1]).
 :- use_module('../prolog/ev3dev/private/simulation/schedule',
               [plan/3, unplan/1]).
 :- use_module('../prolog/ev3dev/sim', [sim_start/2]).
@@ -159,7 +159,7 @@ ended(File, Goal, Seconds, Ended) :-
     ->  Ended = exit(Status)
     ;   throw(Ball)
     ),
-    view_stop_motors_,
+    stop_started_,
     call(Fresh).
 
 time_is_up :-

@@ -8,6 +8,7 @@
             collisions/1,               % ?Count
             ended/1,                    % -How
             duration/1,                 % -Seconds
+            ended_at/2,                 % -Place, -Heading
             ended_near/2,               % +Place, -Distance
             path_length/1,              % -Length
             path_turns/1,               % -Degrees
@@ -274,14 +275,23 @@ ended(How) :-
 duration(Seconds) :-
     run_fact(seconds(Seconds)).
 
+%!  ended_at(-Place, -Heading) is semidet.
+%
+%   Where the robot was at the end, and which way it looked: Place is `X-Y` in
+%   cm, and Heading in degrees clockwise from north, from 0 to below 360.
+
+ended_at(Place, Heading) :-
+    findall(pose(X-Y, H), run_pose(_, X, Y, H), Poses),
+    last(Poses, pose(Place, Turned)),
+    Heading is Turned - 360*floor(Turned/360).
+
 %!  ended_near(+Place, -Distance) is semidet.
 %
 %   How far from Place the robot was at the end, in cm.
 
 ended_near(Place0, Distance) :-
     place(Place0, X-Y),
-    findall(X1-Y1, run_pose(_, X1, Y1, _), Places),
-    last(Places, X1-Y1),
+    ended_at(X1-Y1, _),
     Distance is sqrt((X1-X)**2 + (Y1-Y)**2).
 
 %!  path_length(-Length) is semidet.

@@ -108,6 +108,13 @@ test(commands, Points == 2) :-
               [ ":- use_module(library(ev3dev)).",
                 "start :- motor_run(outB, 100), motor_run(outC, 100), wait(1),",
                 "    col_color(in3, _), motor_stop(outB)." ], mark(mine, Points, _, _, _, _)).
+test(where_it_ended, Points == 3) :-
+    marked_by([ "exercise(ends, [seeds(1)]).", "world(_, [start(50, 50, 90)]).",
+                "score(1, there) :- ended_at(X-Y, _), abs(X-70) < 2, abs(Y-50) < 2.",
+                "score(2, 'looks west') :- ended_at(_, Heading), abs(Heading-270) < 5." ],
+              [ ":- use_module(library(ev3dev)).",
+                "start :- set_robot(5.6, 10.6, outB, outC), go_cm(30, 20), turn(20, -180)." ],
+              mark(mine, Points, _, _, _, _)).
 %   By a quarter to the right, and back over north.
 test(how_far_it_turned, true(abs(Points-1.9) < 0.1)) :-
     marked_by([ "exercise(turns, [seeds(1)]).", "world(_, [start(50, 50, 40)]).",
@@ -339,8 +346,9 @@ cut_off(Out) :-
     sub_string(Text, 0, _, 3, Short),
     setup_call_cleanup(open(File, write, S), write(S, Short), close(S)).
 
-%   Ctrl-C ends the marking while a program drives, and another marking goes on where it was.
-test(an_interrupted_marking_goes_on, [condition(can_enclose), Left-Lines == []-2]) :-
+%   Ctrl-C ends the marking while a program drives, and another marking goes on where it was. The
+%   program that earns nothing is watched in one more run.
+test(an_interrupted_marking_goes_on, [condition(can_enclose), Left-Lines == []-3]) :-
     current_prolog_flag(executable, Prolog),
     with_folder(( folder(Folder), program(honest, One),
                   atom_concat(Folder, '/exercise.pl', Exercise),
@@ -430,13 +438,13 @@ test(try, true(sub_string(Text, _, _, _, "Together: 10 of 10 points, in 3 runs."
                   program(honest, File),
                   with_output_to(string(Text), quietly(exercise_try(Exercise, File, []))) )).
 test(how_far_it_is_on_a_terminal,
-     Lines == [ "0 of 3 runs.", "1 of 3 runs; ", "2 of 3 runs; ", "3 of 3 runs; ", "" ]) :-
+     Lines == [ "0 of 3 runs.", "1 of 3 runs; ", "2 of 3 runs; ", "3 of 3 runs.", "" ]) :-
     with_progress(true, honest, Lines).
 test(no_line_that_renews_itself_in_a_log, Lines == []) :-
     with_progress(false, honest, Lines).
 test(the_run_that_is_watched_has_its_line, Lines == ["Watching the run with the seed 1 again.", ""]) :-
     with_progress(true, is_empty, All),
-    append([_, _, _, _, _], Lines, All).
+    append([_, _, _, _], Lines, All).
 
 :- dynamic user:progress_text/1.
 
@@ -484,6 +492,11 @@ test(no_exercise, true(nonvar(What))) :-
     wrong_exercise(["score(1, x)."], What).
 test(no_scores, true(nonvar(What))) :-
     wrong_exercise(["exercise(x, [])."], What).
+test(a_warning_is_printed_once, [forall(member(Command, [try, mark]))]) :-
+    with_folder(( exercise_lines(Lines),
+                  append(Lines, ["score(1, lonely) :- cells_visited(30, Count)."], All),
+                  file(exercise, All, _), program(honest, _), said_by(Command, Said) )),
+    assertion(occurrences("Singleton", Said, 1)).
 test(wrong_setting, What == [secs(3)]) :-
     wrong_exercise(["exercise(x, [secs(3)]).", "score(1, x)."], What).
 test(a_setting_of_old, What == wall(3)) :-

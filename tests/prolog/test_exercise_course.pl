@@ -5,6 +5,7 @@
 :- use_module('../support/child', [starts_itself/0]).
 :- use_module('../support/course_mistakes').
 :- use_module('../support/trees').
+:- use_module('../support/same_reasons').
 :- use_module(library(ev3dev/exercise)).
 :- use_module(library(filesex), [delete_directory_and_contents/1]).
 
@@ -41,8 +42,10 @@ tried(Folder, solution, Of, Edits) :-
 tried(Folder, Name, Of, Edits) :-
     some(( course_program(Folder, Name, Of, Edits, _, _), Name \== solution )).
 
-%   What programs of that exercise earn that deserve more or less.
-unfair(Folder, Exercise, Options, Unfair) :-
+%   Programs has Name-File for each program of that exercise, while Goal is called.
+:- meta_predicate with_programs(+, +, -, 0).
+
+with_programs(Folder, Exercise, Programs, Goal) :-
     tmp_file(course, Directory),
     make_directory(Directory),
     findall(Name-File,
@@ -53,10 +56,13 @@ unfair(Folder, Exercise, Options, Unfair) :-
                                  write(Out, Text),
                                  close(Out)) ),
             Programs),
-    findall(File, member(_-File, Programs), Files),
-    call_cleanup(
-        once(exercise_mark(Exercise, Files, Options, Marks)),
-        delete_directory_and_contents(Directory)),
+    call_cleanup(once(Goal), delete_directory_and_contents(Directory)).
+
+%   What programs of that exercise earn that deserve more or less.
+unfair(Folder, Exercise, Options, Unfair) :-
+    with_programs(Folder, Exercise, Programs,
+        ( findall(File, member(_-File, Programs), Files),
+          exercise_mark(Exercise, Files, Options, Marks) )),
     findall(earns(Name, Points, Deserved, Why, Runs),
             ( member(mark(Name, Points, _, _, Runs, _), Marks),
               course_program(Folder, Name, _, _, Deserved, Why),
@@ -71,6 +77,18 @@ test(each_program_earns_what_it_deserves, [forall(course(Folder, Exercise)), Unf
     ;   Options = [seeds(5)]
     ),
     unfair(Folder, Exercise, Options, Unfair).
+test(try_says_what_mark_says, [forall(course(Folder, Exercise)), Unlike == []]) :-
+    Options = [seeds(5), enclosed(false)],
+    with_programs(Folder, Exercise, Programs,
+        ( findall(File, member(_-File, Programs), Files),
+          marked_reasons(Exercise, Files, Options, Reasons),
+          findall(Name-said(Tried, Reason),
+                  ( nth1(N, Programs, Name-File),
+                    nth1(N, Reasons, Reason),
+                    said_by_try(Exercise, File, Options, Text),
+                    tried_reason(Text, Tried),
+                    Tried \== Reason ),
+                  Unlike) )).
 test(each_exercise_has_five_mistakes, [forall(course(Folder, _))]) :-
     findall(Name, ( course_program(Folder, Name, _, _, _-Most, _), Most < 10, Name \== skeleton ),
             Names),

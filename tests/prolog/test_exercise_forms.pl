@@ -175,7 +175,9 @@ says("ERROR: [Thread main] -g start: my_ball\nWarning: /a/mine.pl:9:\nWarning:  
 says("Nothing is wrong", 'It ended at 3.0 s with the exit status 2.').
 
 test(the_error_comes_first, [forall(says(Output, Reason0)), Reason == Reason0]) :-
-    ev3dev_marking_reasons:reason(exit(2), Output, '/a/mine.pl', limits(1, 2), 3.0, Reason).
+    ev3dev_marking_reasons:reasons(exit(2), Output, '/a/mine.pl', limits(1, 2), 3.0, reasons(Ends, [], Hints)),
+    append(Ends, Hints, Lines),
+    ev3dev_marking_reasons:reason_text(Lines, Reason).
 
 % ---------------- LIKENESS
 
@@ -233,7 +235,7 @@ report(Students, List, Formats, Names, Texts) :-
           ),
           findall(marked(Name, mark(Name, P, 4, [score('a <b>', P, 4, 1)],
                                     [run(1, P, over, 5.0), run(7654, P, over, 5.0)], Why),
-                         [result(1, not_run), result(7654, not_run)], Sub),
+                         [result(1, not_run), result(7654, not_run)], Sub, why(all, [])),
                   ( member(Sub, Subs), Sub = submission(Name, _, _, Why),
                     ( member(Name-_-P, Students) -> true ; P = 0 ) ),
                   Marked),

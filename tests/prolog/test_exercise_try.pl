@@ -3,6 +3,7 @@
 
 :- use_module('../support/cases').
 :- use_module('../support/trees').
+:- use_module('../support/same_reasons').
 :- use_module(library(ev3dev/exercise)).
 :- use_module(library(filesex), [delete_directory_and_contents/1]).
 
@@ -11,7 +12,7 @@
 says(a_goal_that_fails_is_named_with_its_values,
      [ "start :- robot, us_dist_cm(in1, Cm), near(Cm).",
        "near(Cm) :- Cm < 3." ],
-     "mine.pl:4: start failed; its last goal was *<3, in near/1").
+     "It ended at * s: mine.pl:4: start failed; its last goal was *<3, in near/1").
 says(a_number_that_is_not_computed,
      [ "start :- robot, square(4).",
        "square(N) :- go_cm(30, 30), turn(30, 90), square(N-1).",
@@ -46,14 +47,14 @@ says(a_recursion_without_end,
        "plan(G, G, []).",
        "plan(S, G, [N|P]) :- e(S, N), plan(N, G, P).",
        "start :- robot, plan(a, c, P), print(P)." ],
-     "mine.pl:5: plan/3 calls itself without end: the stack of * MB is full*").
+     "It ended at * s: mine.pl:5: plan/3 calls itself without end: the stack of * MB is full*").
 says(a_list_without_end,
      [ "start :- robot, length(L, 300000000), print(L)." ],
-     "mine.pl:3: start/0 needs too much memory: the stack of * MB is full").
+     "It ended at * s: mine.pl:3: start/0 needs too much memory: the stack of * MB is full").
 says(a_misspelt_predicate_in_a_rule,
      [ "start :- robot, behave([avoid]).",
        "avoid :: us_dist_cm(in1, Cm), Cm > 3 ~> tun(20)." ],
-     "there is no tun/1, in the action of rule avoid (mine.pl:4). Did you mean: turn(Speed)*").
+     "It ended at * s: there is no tun/1, in the action of rule avoid (mine.pl:4). Did you mean: turn(Speed)*").
 says(a_space_before_a_parenthesis,
      [ "start :- robot,",
        "    go_cm (20, 20)." ],
@@ -61,17 +62,59 @@ says(a_space_before_a_parenthesis,
 says(another_name_for_start,
      [ "main :- robot, side.",
        "side :- go_cm(20, 20)." ],
-     "there is no start/0: your file has main/0, so call that start").
+     "It ended at * s: there is no start/0: your file has main/0, so call that start").
+says(a_port_with_another_sensor,
+     [ "start :- robot, us_dist_cm(in2, Cm), go_cm(20, Cm)." ],
+     "in2 has lego-ev3-color, no ultrasonic sensor; *").
+says(a_port_without_a_motor,
+     [ "start :- robot, motor_run(outD, 20)." ],
+     "there is no motor at outD; *").
+says(a_world_that_is_started,
+     [ ":- use_module(library(ev3dev/sim)).",
+       "start :- robot, sim_start(room), go(20)." ],
+     "mine.pl:4: take sim_start/1 out: the exercise has its own world").
+says(a_long_sleep,
+     [ "start :- robot, go(20), sleep(40)." ],
+     "Stopped after 30 s of waiting (robot time *").
 says(a_sensor_that_was_not_read,
      [ "start :- robot, go(40), touching.",
        "touching :- touch(in4, 1), wait(0.2), touching.",
        "touching :- wait(0.2), touching." ],
      "*it ran into *in4 showed *The program had not read in1.").
 
+%   unlike(What, Lines): what a program has from its first line on.
+unlike(no_library,
+       [ "start :- set_robot(5.6, 10.6, outB, outC), go_cm(20, 100)." ],
+       "It ended at 0.0 s: mine.pl:1: set_robot/4 is in library(ev3dev), which your file does not load: begin it with :- use_module(library(ev3dev)).").
+unlike(a_world_in_a_directive,
+       [ ":- use_module(library(ev3dev)).",
+         ":- use_module(library(ev3dev/sim)).",
+         ":- initialization(main).",
+         "main :- sim_start(room), start.",
+         "start :- set_robot(5.6, 10.6, outB, outC), go(20), wait(1), stop." ],
+       "mine.pl:4: take sim_start/1 out: the exercise has its own world").
+unlike(nothing_done,
+       [ ":- use_module(library(ev3dev)).", "start." ],
+       "It did not use the robot.").
+unlike(a_robot_that_is_not_set,
+       [ ":- use_module(library(ev3dev)).", ":- go(20).", "start :- wait(1)." ],
+       "Line 2: no robot is set: see set_robot/4").
+unlike(a_world_that_nothing_calls,
+       [ ":- use_module(library(ev3dev)).", ":- use_module(library(ev3dev/sim)).",
+         "home :- sim_start(room), start.",
+         "start :- set_robot(5.6, 10.6, outB, outC), turn(20, 90)." ],
+       "visits: it was in 1 square of 30 cm; at least 4 would count").
+
 tries(Lines, Text) :-
     tries(free, Lines, Text).
 
 tries(Thinking, Lines, Text) :-
+    judged(Thinking, [ ":- use_module(library(ev3dev)), use_module(library(ev3dev/rules)).",
+                       "robot :- set_robot(5.6, 10.6, outB, outC)."
+                     | Lines ], Text, _).
+
+%   Text is what try says, and Reason that of mark.
+judged(Thinking, Lines, Text, Reason) :-
     format(string(Exercise0), "exercise(e, [seconds(20), seeds(1), thinking(~w)]).", [Thinking]),
     tmp_file(exercise, Folder),
     make_directory(Folder),
@@ -85,13 +128,12 @@ tries(Thinking, Lines, Text) :-
                         "score(1, 'is quick') :- is_quick.",
                         "is_quick :- path_length(Cm), duration(S), Cm/S > 15.",
                         "score(5, rests) :- ended(exit(0)), cells_visited(30, N), N >= 4." ]),
-          write_lines(Mine,
-                      [ ":- use_module(library(ev3dev)), use_module(library(ev3dev/rules)).",
-                        "robot :- set_robot(5.6, 10.6, outB, outC)."
-                      | Lines ]) ),
-        with_output_to(string(Text),
-                       \+ exercise_try(Exercise, Mine, [enclosed(false)])),
-        delete_directory_and_contents(Folder)).
+          write_lines(Mine, Lines) ),
+        ( said_by_try(Exercise, Mine, [enclosed(false)], Text),
+          marked_reasons(Exercise, [Mine], [enclosed(false)], [Reason]) ),
+        delete_directory_and_contents(Folder)),
+    tried_reason(Text, Tried),
+    assertion(Tried == Reason).
 
 write_lines(File, Lines) :-
     setup_call_cleanup(open(File, write, Out),
@@ -107,6 +149,9 @@ like(Text, Pattern) :-
 :- begin_tests(exercise_try).
 test(it_says, [forall(( says(What, Lines, Said), can_be_said(What) ))]) :-
     tries(Lines, Text),
+    ( like(Text, Said) -> true ; throw(What-Text) ).
+test(it_says_of_a_file, [forall(unlike(What, Lines, Said))]) :-
+    judged(free, Lines, Text, _),
     ( like(Text, Said) -> true ; throw(What-Text) ).
 
 % 7.2.3 says neither the values of a goal that failed nor the goals on a full

@@ -185,6 +185,13 @@ prolog:message(error(existence_error(procedure, Predicate0), Context)) -->
 prolog:message(error(existence_error(procedure, Predicate0), Context)) -->
     { is_plain(Context),
       unqualified(Predicate0, Predicate),
+      not_in_program(Predicate)
+    },
+    [ '~q is in library(ev3dev), which your file does not load: begin it \c
+       with :- use_module(~w).'-[Predicate, library(ev3dev)] ].
+prolog:message(error(existence_error(procedure, Predicate0), Context)) -->
+    { is_plain(Context),
+      unqualified(Predicate0, Predicate),
       instead(Predicate, Said, Predicates),
       where(Context, Where)
     },
@@ -317,6 +324,14 @@ library_of(Predicate, Library) :-
     ask(libraries, in_library(Library, Predicates)),
     memberchk(Predicate, Predicates),
     !.
+
+%   The library is there, but not for the program.
+
+not_in_program(Name/Arity) :-
+    module_property(ev3dev, exports(Exports)),
+    memberchk(Name/Arity, Exports),
+    functor(Head, Name, Arity),
+    \+ current_predicate(_, user:Head).
 
 %   Call Goal of a file that is loaded when it is needed for the first time.
 

@@ -15,7 +15,8 @@
 
 `swipl ev3dev try` makes one more run of a program that has not earned all
 points. In its process, this module prints what it finds out, each in a line
-that begins with `ev3dev-why` and a tab.
+that begins with `ev3dev-why` and a tab, and what ended the program in one
+that begins with `ev3dev-end`.
 */
 
 :- meta_predicate watched_run(+, 0).
@@ -34,7 +35,7 @@ watched_run(Seconds, _:Goal) :-
     ->  runs(Seconds, Goal)
     ;   findall(Other, other_goal(Other), Others),
         instead(Others, Name, Instead),
-        why('there is no ~q/~d~w', [Name, Arity, Instead])
+        line(end, 'there is no ~q/~d~w', [Name, Arity, Instead])
     ).
 
 runs(Seconds, Goal) :-
@@ -42,15 +43,11 @@ runs(Seconds, Goal) :-
     Until is Now+Seconds,
     watch(Goal),
     bound_stack,
-    (   reachable(Goal, Called),
-        out_of_place(Called, Advice)
-    ->  place_of(Called, Place),
-        why('~w~w', [Place, Advice])
-    ;   outcome(listening(0.1, ev3dev_watched_run:tick(Until), user:Goal),
-                Outcome),
-        said(Outcome, Goal),
-        forall(thought(Thought, Cm, At), said_thought(Thought, Cm, At))
-    ).
+    timeless(Goal),
+    outcome(listening(0.1, ev3dev_watched_run:tick(Until), user:Goal),
+            Outcome),
+    said(Outcome, Goal),
+    forall(thought(Thought, Cm, At), said_thought(Thought, Cm, At)).
 
 %   The longest thought of the run, if the robot drove meanwhile.
 
@@ -97,7 +94,10 @@ tick(Until, Listener) :-
     ).
 
 why(Format, Arguments) :-
-    format(user_error, 'ev3dev-why\t', []),
+    line(why, Format, Arguments).
+
+line(Kind, Format, Arguments) :-
+    format(user_error, 'ev3dev-~w\t', [Kind]),
     format(user_error, Format, Arguments),
     nl(user_error).
 
@@ -106,17 +106,14 @@ why(Format, Arguments) :-
 :- multifile ends_run/1.
 :- dynamic ends_run/1.
 
-said(true, Goal) :-
-    timeless(Goal).
+said(true, _).
 said(false, Goal) :-
-    said_by(ev3dev(failed(Goal))),
-    timeless(Goal).
-said(thrown(Ball), Goal) :-
+    said_by(ev3dev(failed(Goal))).
+said(thrown(Ball), _) :-
     (   ends_run(Ball)
     ->  throw(Ball)
     ;   Ball == ev3dev_time_is_over
-    ->  timeless(Goal),
-        forall(endless(Text), why('~w', [Text]))
+    ->  forall(endless(Text), why('~w', [Text]))
     ;   (   of_rule(Ball)
         ->  nb_setval(ev3dev_last_goal, [])
         ;   true
@@ -136,7 +133,7 @@ of_rule(error(_, Context)) :-
 said_by(Message) :-
     message_text(Message, Text),
     normalize_space(atom(Line), Text),
-    why('~w', [Line]).
+    line(end, '~w', [Line]).
 
 % ---------------- NO SUCH GOAL
 
@@ -205,15 +202,6 @@ place_of(Called, Place) :-
     !,
     place_first(Where, Place).
 place_of(_, '').
-
-%   What has no place in an exercise: a simulation of its own.
-
-out_of_place(_:Goal, Advice) :-
-    functor(Goal, Name, Arity),
-    memberchk(Name/Arity, [ sim_start/1, sim_start/2, with_sim/2,
-                            with_sim/3 ]),
-    format(atom(Advice), 'take ~q/~d out: the exercise has its own world',
-           [Name, Arity]).
 
 %   What looks at another clock than the robot's.
 

@@ -3,7 +3,7 @@
             unused/3                    % +Exercise, -Names, -Text
           ]).
 :- use_module('../errors/error_texts', [nearly/3]).
-:- use_module(read, [wrong/2]).
+:- use_module(read, [exercise_fact/2, wrong/2]).
 :- use_module(library(lists), [list_to_set/2, member/2]).
 :- use_module(library(prolog_codewalk), [prolog_walk_code/1]).
 
@@ -53,9 +53,9 @@ unused(exercise(Module, _, _, _), Names, Text) :-
                        on_trace(ev3dev_marking_check:note_called) ]),
     findall(Line-(Name/Arity-Meant),
             ( own(Module, Name/Arity, Line),
-              \+ fact(Name, Arity),
+              \+ exercise_fact(Name, Arity),
               \+ called(Name/Arity),
-              findall(Known, fact(Known, _), Facts0),
+              findall(Known, exercise_fact(Known, _), Facts0),
               sort(Facts0, Facts),
               nearly(Name, Facts, Meant) ),
             Found0),
@@ -65,21 +65,12 @@ unused(exercise(Module, _, _, _), Names, Text) :-
     Names = [_|_],
     findall(Each,
             ( member(Line-(Name-Meant), Found),
-              once(fact(Meant, Arity)),
+              once(exercise_fact(Meant, Arity)),
               format(atom(Each),
                      'line ~d: nothing uses ~w (did you mean ~w/~w?)',
                      [Line, Name, Meant, Arity]) ),
             Texts),
     atomic_list_concat(Texts, '; ', Text).
-
-%   What is called in an exercise
-
-fact(exercise, 2).
-fact(world, 2).
-fact(score, 2).
-fact(score, 3).
-fact(happens, 1).
-fact(forbid, 1).
 
 own(Module, Name/Arity, Line) :-
     current_predicate(Module:Name/Arity),

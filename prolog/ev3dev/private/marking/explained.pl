@@ -1,67 +1,115 @@
 :- module(ev3dev_marking_explained,
-          [ explained/5                 % +Exercise, +Files, +Seed,
-                                        % +Enclosed, -Lines
+          [ watching/3,                 % +Seconds, +Goal, -Watched
+            lacks/3,                    % +Exercise, +Files, -Lines
+            own_world/3                 % +Files, +Goal, -Line
           ]).
-:- use_module(read, [exercise_setting/3, program_terms/2]).
+:- use_module(read, [program_terms/2]).
 :- use_module(record, [run_fact/1]).
-:- use_module(run, [fenced_run/6]).
 :- use_module(library(lists), [append/3, last/2, member/2]).
 
 /** <module> Why a program does not earn all points
 
-One more run of a program, in whose process
-private/explain/watched_run.pl looks for the reason.
+In one more run of a program private/explain/watched_run.pl looks for the
+reason. What it cannot see is found here.
 */
 
-%!  explained(+Exercise, +Files, +Seed, +Enclosed, -Lines) is semidet.
+%!  watching(+Seconds, +Goal, -Watched) is det.
 %
-%   Run the program Files again with that Seed; fails if that run is lost.
-%   Lines say where it ended and why; else which rules never had their turn,
-%   and by how much the scores were missed.
+%   Watched is a goal that calls Goal, and says why it may not have done what
+%   was asked, before the Seconds of a run are over.
 
-explained(Exercise, Files, Seed, Enclosed, Lines) :-
-    exercise_setting(Exercise, goal(Goal), start),
-    exercise_setting(Exercise, seconds(Seconds), 60),
-    Soon is Seconds-0.5,                % before its time is over
-    Watched = ( use_module(library(ev3dev/private/explain/watched_run), []),
-                ev3dev_watched_run:watched_run(Soon, Goal) ),
-    catch(fenced_run(Exercise-'', Files, Watched, Seed, Enclosed,
-                     ended(_, Output, File)),
-          lost_run(_), fail),
-    split_string(Output, "\n", "\r", All),
+watching(Seconds, Goal, Watched) :-
+    Soon is Seconds-0.5,
+    Library = ev3dev,                   % in the process of the program
+    Watched = ( use_module(library(Library), []),
+                use_module(library(ev3dev/private/explain/watched_run), []),
+                ev3dev_watched_run:watched_run(Soon, Goal) ).
+
+%!  lacks(+Exercise, +Files, -Lines) is det.
+%
+%   Of the run that is recorded: which rules never had their turn, and by how
+%   much scores were missed.
+
+lacks(Exercise, Files, Lines) :-
+    findall(Text-Words, missed(Exercise, Text, Words), Missed),
     findall(Line,
-            ( member(Text, All),
-              string_concat("ev3dev-why\t", Line0, Text),
-              without_folder(Line0, File, Line1),
-              ended_as(Line1, Seconds, Line) ),
-            Lines0),
-    (   Lines0 == []
-    ->  findall(Text-Words, missed(Exercise, Text, Words), Missed),
-        findall(Line,
-                (   idle_rule(Files, Line)
-                ;   append(Before, [Text-Words|_], Missed),
-                    \+ memberchk(_-Words, Before),
-                    format(string(Line), "~w: ~w", [Text, Words])
-                ),
-                Lines)
-    ;   Lines = Lines0
+            (   idle_rule(Files, Line)
+            ;   append(Before, [Text-Words|_], Missed),
+                \+ memberchk(_-Words, Before),
+                format(atom(Line), '~w: ~w', [Text, Words])
+            ),
+            Lines).
+
+% ---------------- A SIMULATION OF ITS OWN
+
+%!  own_world(+Files, +Goal, -Line) is semidet.
+%
+%   The program Files starts a simulation of its own in what Goal or a
+%   directive calls, and Line says so.
+
+own_world(Files, Goal, Line) :-
+    member(_-Text, Files),
+    member(Word, ["sim_start", "with_sim"]),
+    sub_string(Text, _, _, _, Word),    % as a rule there is none
+    !,
+    findall(Name-Term,
+            ( member(Name-Its, Files),
+              program_terms(Its, Terms),
+              member(Term, Terms) ),
+            All),
+    functor(Goal, Start, _),
+    reached([Start], All, Reached),
+    member(Name-term(Term, At), Reached),
+    named(Term, Predicate),
+    starts_simulation(Predicate),
+    !,
+    format(atom(Line),
+           '~w:~d: take ~q out: the exercise has its own world',
+           [Name, At, Predicate]).
+
+%   Directives, and clauses for all Names in what is reached.
+
+reached(Names0, All, Reached) :-
+    findall(Name-term(Term, Line),
+            ( member(Name-term(Term, Line), All),
+              ( head_name(Term, Head) -> memberchk(Head, Names0) ; true ) ),
+            Reached0),
+    findall(Name,
+            ( member(_-term(Term, _), Reached0), named(Term, Name/_) ),
+            More),
+    append(Names0, More, Names1),
+    sort(Names1, Names),
+    (   Names == Names0
+    ->  Reached = Reached0
+    ;   reached(Names, All, Reached)
     ).
 
-%   The folder of that run means nothing to the student.
+head_name(Term, Name) :-
+    Term \= (:- _),
+    Term \= ::(_, _),
+    (   Term = (Head :- _)
+    ->  true
+    ;   Term = (Head --> _)
+    ->  true
+    ;   Head = Term
+    ),
+    callable(Head),
+    functor(Head, Name, _).
 
-without_folder(Line0, File, Line) :-
-    file_directory_name(File, Folder0),
-    atom_concat(Folder0, /, Folder),
-    atomic_list_concat(Parts, Folder, Line0),
-    atomic_list_concat(Parts, Line).
-
-ended_as(Line0, Seconds, Line) :-
-    (   sub_string(Line0, _, _, _, "calls itself without end: "),
-        \+ sub_string(Line0, _, _, _, "the stack")
-    ->  format(string(Line), "It was still under way after ~w s: ~w",
-               [Seconds, Line0])
-    ;   Line = Line0
+named(Term, Name/Arity) :-
+    callable(Term),
+    functor(Term, Name0, Arity0),
+    (   Name = Name0,
+        Arity = Arity0
+    ;   compound(Term),
+        arg(_, Term, Part),
+        named(Part, Name/Arity)
     ).
+
+starts_simulation(sim_start/1).
+starts_simulation(sim_start/2).
+starts_simulation(with_sim/2).
+starts_simulation(with_sim/3).
 
 % ---------------- RULES
 
@@ -194,6 +242,8 @@ measured(path_length(Cm), Words) :-
     format(string(Words), "it drove ~0f cm", [Cm]).
 measured(path_turns(Degrees), Words) :-
     format(string(Words), "it turned by ~0f degrees", [Degrees]).
+measured(ended_at(_, Heading), Words) :-
+    format(string(Words), "it looked to ~0f degrees at the end", [Heading]).
 measured(ended_near(Place, Cm), Words) :-
     format(string(Words), "it ended ~0f cm from ~w", [Cm, Place]).
 measured(pushed(Name, Cm), Words) :-

@@ -5,7 +5,8 @@
             check_solution/2            % +Exercise, +Options
           ]).
 :- use_module('../basics/fields', [goal_expansion/2, term_expansion/2]).
-:- use_module(explained, [explained/5]).
+:- use_module(explained, [own_world/3]).
+:- use_module(reasons, [reason_text/2]).
 :- use_module(records, []).
 :- use_module('../batch/batch', [batch_runs/6, processors/1]).
 :- use_module('../batch/workplace', [end_workplace/1, new_workplace/2]).
@@ -36,9 +37,12 @@
 The runs are those of a batch, whose program is a file with the exercise and
 the texts of all programs in it; so it can go to another machine as it is.
 
-A program's result is marked(Name, Mark, Results, Submission): the mark as of
-exercise_mark/4; result(Seed, Result) for each seed, Result as of
-marked_run/4, or `not_run`; and the submission as of submissions/4.
+A program's result is marked(Name, Mark, Results, Submission, Why): the mark
+as of exercise_mark/4; result(Seed, Result) for each seed, Result as of
+marked_run/4, or `not_run`; the submission as of submissions/4; and the lines
+of the mark's reason, as why(Seed, Lines), Seed being that of the run which
+they are about, or `all`. A program that does not earn all points is run once
+more for it, with the seed of its worst run, and watched.
 */
 
 %!  marks(+Exercise, +Files, +Options, -Marks) is det.
@@ -165,12 +169,9 @@ tried(Exercise, File, Options) :-
 tried(Exercise0, File, Options, Marked) :-
     exercise_to_mark(Exercise0, Exercise, Read),
     warn_of_unused(Exercise, Read),
-    \+ has_own_world(Read, File, Options),
+    \+ has_own_world(Read, File),
     printed(Exercise, Read, open, File, Options, Marked),
-    (   earned_all(Marked)
-    ->  true
-    ;   print_why(Read, Options, Marked)
-    ),
+    print_why(Marked),
     (   option(page(Page), Options)
     ->  use_module(library(ev3dev/private/marking/report), []),
         ev3dev_marking_report:write_page(Page, Read, all, Marked),
@@ -180,19 +181,16 @@ tried(Exercise0, File, Options, Marked) :-
 
 %   A simulation of its own is another one, in which a run takes a minute.
 
-has_own_world(Read, File, Options) :-
+has_own_world(Read, File) :-
     own_submission(File, Submission),
     program(Submission, 1, Read, program(_, _, Files, _, '')),
-    member(_-Text, Files),
-    member(Word, ["sim_start", "with_sim"]),
-    once(sub_string(Text, _, _, _, Word)),
-    enclosed(Options, Enclosed),
-    seeds(Read, open, Options, [Seed|_]),
-    explained(Read, Files, Seed, Enclosed, Lines),
-    member(Line, Lines),
-    sub_string(Line, _, _, 0, "the exercise has its own world"),
+    world_of_its_own(Read, Files, Line),
     !,
     format("~w~n", [Line]).
+
+world_of_its_own(Read, Files, Line) :-
+    exercise_setting(Read, goal(Goal), start),
+    own_world(Files, Goal, Line).
 
 %!  check_solution(+Exercise, +Options) is semidet.
 
@@ -207,7 +205,7 @@ check_solution(Exercise0, Options) :-
     directory_file_path(Folder, Solution, File),
     printed(Exercise, Read, all, File, Options, Marked),
     Marked = marked(mark: mark(runs: Runs, reason: Reason)),
-    print_reason(Reason),
+    ( Reason == '' -> true ; format("~w~n", [Reason]) ),
     findall(Earned-Seed, member(run(Seed, Earned, _, _), Runs), Pairs),
     keysort(Pairs, [Least-LeastSeed|_]),
     findall(Earned, member(Earned-_, Pairs), All),
@@ -256,34 +254,15 @@ printed(Exercise, Read, Which, File, Options0, Marked) :-
     forall(member(Score, Scores), print_score(Score, Count)),
     format("Together: ~w of ~w points, in ~d runs.~n", [Points, Of, Count]).
 
-print_reason(Reason) :-
-    ( Reason == '' -> true ; format("~w~n", [Reason]) ).
-
-%   The worst run is made again, and watched. A syntax error says all itself,
-%   as does what ended a run from outside.
-
-print_why(Read, Options, Marked) :-
-    Marked = marked(mark: mark(runs: Runs, reason: Reason),
-                    results: Results, submission: Submission),
-    (   \+ sub_atom(Reason, _, _, _, 'Line '),
-        program(Submission, 1, Read, program(_, _, Files, _, '')),
-        findall(Earned-Seed, member(run(Seed, Earned, _, _), Runs), Pairs),
-        keysort(Pairs, [_-Worst|_]),
-        enclosed(Options, Enclosed),
-        Terminal = [progress(terminal)],
-        progress_line('Watching the run with the seed ~w again.'-[Worst],
-                      Terminal),
-        call_cleanup(explained(Read, Files, Worst, Enclosed, [Line|Lines]),
-                     progress_line(''-[], Terminal))
-    ->  format("With the seed ~w:~n", [Worst]),
-        forall(member(Text, [Line|Lines]), format("  ~w~n", [Text])),
-        (   sub_atom(Reason, 0, _, _, 'Stopped')
-        ->  print_reason(Reason)
-        ;   true
-        )
-    ;   print_reason(Reason)
+print_why(Marked) :-
+    Marked = marked(results: Results, why: why(Which, Lines)),
+    (   Which == all
+    ->  forall(member(Line, Lines), format("~w~n", [Line]))
+    ;   format("With the seed ~w:~n", [Which]),
+        forall(member(Line, Lines), format("  ~w~n", [Line]))
     ),
     forall(( member(result(Seed, result(collision: Hit)), Results),
+             Seed \== Which,
              Hit \== '' ),
            format("With the seed ~w: ~w~n", [Seed, Hit])).
 
@@ -333,12 +312,49 @@ marked_files(Exercise, Read, Submissions, Seeds, Kept, Options, Marked) :-
     Skipped is All-Count-Others2,
     runs_over(Skipped, Options),
     results(Jobs2, Batch, Results2),
-    progress_ends(Options),
     append(Results1, Results2, Results),
+    findall(Number-watched(Worst),
+            ( member(Program, Programs),
+              arg(1, Program, Number),
+              lacking(Program, Read, Seeds, Results, Worst) ),
+            Jobs3),
+    watching_now(Jobs3, Options),
+    findall(Option, ( member(Option, Options), Option \= progress(_) ),
+            Silent),
+    results(Jobs3, batch(Exercise-Text, Read, Programs, Enclosed, Kept,
+                         Silent), Results3),
+    progress_ends(Options),
     findall(One,
             ( member(Program, Programs),
-              marked(Program, Read, Seeds, Results, One) ),
+              marked(Program, Read, Seeds, Results, Results3, One) ),
             Marked).
+
+%   A program that does not earn all points, and does not say by itself why.
+
+lacking(Program, Read, Seeds, Results, Worst) :-
+    Program = program(Number, _, Files, _, ''),
+    \+ world_of_its_own(Read, Files, _),
+    its_results(Number, Seeds, Results, Its),
+    \+ ( member(result(_, result(reason: Reason)), Its),
+         sub_atom(Reason, 0, _, _, 'Line ') ),  % of a syntax error
+    Read = exercise(_, _, _, ScoreFacts),
+    findall(Earned-Seed,
+            ( member(result(Seed, Result), Its),
+              run_points(Result, ScoreFacts, Earned) ),
+            Pairs),
+    keysort(Pairs, [Least-Worst|_]),
+    full_points(ScoreFacts, Of),
+    Least < Of.
+
+watching_now(Jobs, Options) :-
+    (   Jobs = [_-watched(Seed)]
+    ->  progress_line('Watching the run with the seed ~w again.'-[Seed],
+                      Options)
+    ;   length(Jobs, Count),
+        Count > 0
+    ->  progress_line('Watching ~d runs again.'-[Count], Options)
+    ;   true
+    ).
 
 hopeless(Number, Seeds, Results) :-
     \+ ( member(Seed, Seeds),
@@ -446,8 +462,9 @@ batch_results(Jobs, Batch, Results) :-
               ) ),
             Results).
 
-run_of(batch(_-Text, Read, Programs, Enclosed, _, _), Program-Seed,
-       run([Text, Enclosed, Files, Seed], World, Robot)) :-
+run_of(batch(_-Text, Read, Programs, Enclosed, _, _), Program-Which,
+       run([Text, Enclosed, Files, Which], World, Robot)) :-
+    ( Which = watched(Seed) -> true ; Seed = Which ),
     memberchk(program(Program, _, Files, _, _), Programs),
     exercise_world(Read, Seed, World),
     exercise_setting(Read, robot(Robot), default).
@@ -551,18 +568,13 @@ write_term_line(Out, Term) :-
 
 % ---------------- MARKS
 
-marked(program(Number, Name, _, Submission, Refused), Read, Seeds, Results,
+marked(Program, Read, Seeds, Results, Watched,
        marked(Name, mark(Name, Points, Of, Scores, Runs, Reason), Its,
-              Submission)) :-
+              Submission, Why)) :-
+    Program = program(Number, Name, _, Submission, _),
     Read = exercise(_, _, _, ScoreFacts),
     length(Seeds, SeedCount),
-    findall(result(Seed, Result),
-            ( member(Seed, Seeds),
-              (   member(job(Number, Seed, Result), Results)
-              ->  true
-              ;   Result = not_run
-              ) ),
-            Its),
+    its_results(Number, Seeds, Results, Its),
     findall(score(Text, Earned, Full, Missed),
             ( nth1(Index, ScoreFacts, score(Full, Text, _, _)),
               findall(Share,
@@ -577,17 +589,29 @@ marked(program(Number, Name, _, Submission, Refused), Read, Seeds, Results,
     findall(P, member(score(_, P, _, _), Scores), Ps),
     sum_list(Ps, Points0),
     in_hundredths(Points0, Points),
-    findall(P, member(score(P, _, _, _), ScoreFacts), Fulls),
-    sum_list(Fulls, Of),
+    full_points(ScoreFacts, Of),
     findall(run(Seed, Earned, Ended, Seconds),
             ( member(result(Seed, Result), Its),
               run_points(Result, ScoreFacts, Earned),
               run_end(Result, Ended, Seconds) ),
             Runs),
-    (   Refused \== ''
-    ->  Reason = Refused
-    ;   most_often(Its, Reason)
-    ).
+    ( Points < Of -> Lacks = true ; Lacks = false ),
+    why(Program, Lacks, Read, Its, Watched, Why),
+    Why = why(_, Lines),
+    reason_text(Lines, Reason).
+
+its_results(Number, Seeds, Results, Its) :-
+    findall(result(Seed, Result),
+            ( member(Seed, Seeds),
+              (   member(job(Number, Seed, Result), Results)
+              ->  true
+              ;   Result = not_run
+              ) ),
+            Its).
+
+full_points(ScoreFacts, Of) :-
+    findall(P, member(score(P, _, _, _), ScoreFacts), Fulls),
+    sum_list(Fulls, Of).
 
 share(Result, Index, Share) :-
     Result = result(shares: Shares),
@@ -624,29 +648,67 @@ in_hundredths(Exact, Number) :-
     ;   Number is Hundredths/100.0
     ).
 
+%   The lines of the reason, and the run that they are about.
+
+why(Program, Lacks, Read, Its, Watched, why(Which, Lines)) :-
+    Program = program(Number, _, Files, _, Refused),
+    (   Refused \== ''
+    ->  Which = all,
+        Lines = [Refused]
+    ;   Lacks == true,
+        world_of_its_own(Read, Files, Line)
+    ->  Which = all,
+        Lines = [Line]
+    ;   member(job(Number, watched(Seed), Result), Watched),
+        found_out(Result, Seed, Its, Found)
+    ->  Which = Seed,
+        Lines = Found
+    ;   Which = all,
+        findall(Line,
+                ( most_often(Its, Reason), in_runs(Its, Reason, Line) ),
+                Lines)
+    ).
+
+found_out(Result, Seed, Its, Lines) :-
+    Result = result(ended: Ended, reason: Lines0),
+    Ended \== lost,
+    memberchk(result(Seed, result(reason: Own, collision: Hit)), Its),
+    (   Own \== '',
+        Lines0 = [First0|Lines1]
+    ->  in_runs(Its, First0, First),
+        Lines2 = [First|Lines1]
+    ;   Lines2 = Lines0
+    ),
+    ( Hit == '' -> Lines = Lines2 ; append(Lines2, [Hit], Lines) ),
+    Lines \== [].
+
 %   The reason that most runs have; of several, the first.
 
 most_often(Results, Reason) :-
+    reasons_of(Results, Whys),
+    findall(Minus-Index,
+            ( nth1(Index, Whys, Why),
+              findall(x, member(Why, Whys), Same),
+              length(Same, Count),
+              Minus is -Count ),
+            Counted),
+    msort(Counted, [_-First|_]),
+    nth1(First, Whys, Reason).
+
+reasons_of(Results, Whys) :-
     findall(Why,
             ( member(result(_, result(reason: Why)), Results),
               Why \== '' ),
-            Whys),
-    (   Whys == []
-    ->  Reason = ''
-    ;   findall(Minus-Index,
-                ( nth1(Index, Whys, Why),
-                  findall(x, member(Why, Whys), Same),
-                  length(Same, Count),
-                  Minus is -Count ),
-                Counted),
-        msort(Counted, [_-First|_]),
-        nth1(First, Whys, Reason0),
-        length(Whys, Bad),
-        findall(x, member(result(_, result(seconds: _)), Results), Made),
-        length(Made, All),
-        (   Bad =:= All
-        ->  Reason = Reason0
-        ;   format(atom(Reason), '~w (in ~d of ~d runs)',
-                   [Reason0, Bad, All])
-        )
+            Whys).
+
+%   Some runs may have none.
+
+in_runs(Results, Reason0, Reason) :-
+    reasons_of(Results, Whys),
+    length(Whys, Bad),
+    findall(x, member(result(_, result(seconds: _)), Results), Made),
+    length(Made, All),
+    (   Bad =:= All
+    ->  Reason = Reason0
+    ;   format(atom(Reason), '~w (in ~d of ~d runs)', [Reason0, Bad, All])
     ).

@@ -54,13 +54,12 @@ runs_over(Count, Options) :-
     assertz(progress(All, Seeds, Began, Over)),
     (   Count > 0
     ->  get_time(Now),
-        Left is (Now-Began) * max(0, All-Over) / Over,
+        Left is (Now-Began) * (All-Over) / Over,
         time_left(Left, Text),
         Programs0 is Over0//Seeds,
         Programs is Over//Seeds,
         AllPrograms is All//Seeds,
-        progress_line('~d of ~d runs; about ~w left.'-[Over, All, Text],
-                      Options),
+        progress_line('~d of ~d runs~w.'-[Over, All, Text], Options),
         (   option(progress(true), Options),
             \+ on_terminal(Options),
             Programs//10 > Programs0//10
@@ -72,10 +71,12 @@ runs_over(Count, Options) :-
     ).
 
 time_left(Seconds, Text) :-
-    (   Seconds < 60
-    ->  format(atom(Text), '~0f s', [Seconds])
+    (   Seconds =< 0
+    ->  Text = ''                       % all are over
+    ;   Seconds < 60
+    ->  format(atom(Text), '; about ~0f s left', [max(1, Seconds)])
     ;   Minutes is Seconds/60,
-        format(atom(Text), '~0f min', [Minutes])
+        format(atom(Text), '; about ~0f min left', [Minutes])
     ).
 
 %!  progress_ends(+Options) is det.
@@ -89,4 +90,4 @@ progress_ends(Options) :-
 prolog:message(ev3dev(marking_now(Format-Values))) -->
     [ at_same_line, '\r~t~60|\r'-[], Format-Values, flush ].
 prolog:message(ev3dev(marking(Over, All, Left))) -->
-    [ '~d of ~d programs; about ~w left.'-[Over, All, Left] ].
+    [ '~d of ~d programs~w.'-[Over, All, Left] ].

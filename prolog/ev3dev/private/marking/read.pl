@@ -1,5 +1,6 @@
 :- module(ev3dev_marking_read,
           [ read_exercise/2,            % +File, -Exercise
+            exercise_fact/2,            % ?Name, ?Arity
             exercise_setting/3,         % +Exercise, ?Setting, +Default
             exercise_seeds/3,           % +Exercise, +Which, -Seeds
             seed_list/2,                % +Seeds, -List
@@ -150,6 +151,17 @@ a_score(Module, Line, Points, Text, Module:Head, Share) :-
     ->  true
     ;   Line = 0
     ).
+
+%!  exercise_fact(?Name, ?Arity) is nondet.
+%
+%   What this file asks an exercise for.
+
+exercise_fact(exercise, 2).
+exercise_fact(world, 2).
+exercise_fact(score, 2).
+exercise_fact(score, 3).
+exercise_fact(happens, 1).
+exercise_fact(forbid, 1).
 
 %!  exercise_setting(+Exercise, ?Setting, +Default) is det.
 %

@@ -1,71 +1,116 @@
 :- module(ev3dev_marking_reasons,
-          [ reason/6                    % +Ended, +Output, +File, +Limits,
-                                        % +Seconds, -Reason
+          [ reasons/6,                  % +Ended, +Output, +File, +Limits,
+                                        % +Seconds, -Reasons
+            reason_text/2               % +Lines, -Text
           ]).
-:- use_module(library(lists), [list_to_set/2, member/2]).
+:- use_module(library(lists), [append/3, list_to_set/2, member/2, select/3]).
 
-/** <module> Why a program ended, in a sentence
+/** <module> Why a program ended, in sentences
 
-What a program prints may be forged; it makes this sentence, and no mark.
+What a program prints may be forged; it makes these sentences, and no mark.
 */
 
-%!  reason(+Ended, +Output, +File, +Limits, +Seconds, -Reason) is det.
+%!  reasons(+Ended, +Output, +File, +Limits, +Seconds, -Reasons) is det.
 %
-%   Reason is '' if nothing is wrong with a program that ended so, as of
-%   sim_fenced/3, at Seconds of the robot's time. Limits is
+%   Why a program ended so, as of sim_fenced/3, at Seconds of the robot's
+%   time. Reasons is reasons(Ends, Whys, Hints), lists of lines: what ended
+%   it, at most one; what private/explain/watched_run.pl found out, if the
+%   program was watched; and other errors and warnings, at most two. Limits is
 %   limits(Cpu, Sleep).
 
-reason(over, Output, File, _, _, Reason) :-
-    load_error(Output, File, Reason),
-    !.
-reason(over, _Output, _File, _, _Seconds, '') :-
-    !.
-reason(exit(Status), Output, File, _, Seconds, Reason) :-
-    !,
-    (   load_error(Output, File, Reason)
-    ->  true
-    ;   Status == 0
-    ->  Reason = ''
-    ;   ranked(Output, File, [First|Rest])
-    ->  also(Rest, Also),
-        format(atom(Reason), 'It ended at ~1f s: ~w~w',
-               [Seconds, First, Also])
-    ;   format(atom(Reason), 'It ended at ~1f s with the exit status ~w.',
-               [Seconds, Status])
+reasons(Ended, Output, File, Limits, Seconds,
+        reasons(Ends, Whys, Hints)) :-
+    (   by_itself(Ended),
+        load_error(Output, File, Fault)
+    ->  Ends = [Fault],
+        Whys = [],
+        Hints = []
+    ;   said(Output, File, Said),
+        ends(Ended, Said, Limits, Seconds, Ends, Others),
+        findall(Text, member(why-Text, Others), Whys0),
+        at_most(4, Whys0, Whys),
+        findall(Text, member(hint-Text, Others), Hints0),
+        at_most(2, Hints0, Hints)
     ).
-reason(killed(Signal), _, _, _, Seconds, Reason) :-
+
+by_itself(over).
+by_itself(exit(_)).
+
+ends(Ended, Said, Limits, Seconds, Ends, Others) :-
+    (   by_itself(Ended),
+        select(Kind-First, Said, Others0),
+        (   Kind == end
+        ;   Kind == hint,
+            Ended = exit(Status),
+            Status \== 0
+        )
+    ->  format(atom(End), 'It ended at ~1f s: ~w', [Seconds, First]),
+        Ends = [End],
+        Others = Others0
+    ;   memberchk(Ended, [over, exit(0)])
+    ->  Ends = [],
+        Others = Said
+    ;   ended(Ended, Limits, Seconds, End),
+        Ends = [End],
+        findall(why-Text, member(why-Text, Said), Others)
+    ).
+
+at_most(Count, List0, List) :-
+    (   length(List, Count),
+        append(List, [_|_], List0)
+    ->  true
+    ;   List = List0
+    ).
+
+%!  reason_text(+Lines, -Text) is det.
+%
+%   Text has all these Lines of reasons; it is '' for none.
+
+reason_text([], '').
+reason_text([First|Others], Text) :-
+    (   Others == []
+    ->  Text = First
+    ;   atomic_list_concat(Others, '; ', Listed),
+        ( sub_atom(First, _, _, 0, '.') -> End = '' ; End = '.' ),
+        format(atom(Text), '~w~w Also: ~w', [First, End, Listed])
+    ).
+
+ended(exit(Status), _, Seconds, Reason) :-
+    format(atom(Reason), 'It ended at ~1f s with the exit status ~w.',
+           [Seconds, Status]).
+ended(killed(Signal), _, Seconds, Reason) :-
     format(atom(Reason), 'It crashed at ~1f s (signal ~w).',
            [Seconds, Signal]).
-reason(limit(cpu), _, _, limits(Cpu, _), Seconds, Reason) :-
+ended(limit(cpu), limits(Cpu, _), Seconds, Reason) :-
     Used is Cpu + Seconds,
     format(atom(Reason),
            'Stopped after ~0f s of processor time (robot time ~1f s).',
            [Used, Seconds]).
-reason(limit(sleep), _, _, limits(_, Sleep), Seconds, Reason) :-
+ended(limit(sleep), limits(_, Sleep), Seconds, Reason) :-
     format(atom(Reason),
            'Stopped after ~w s of waiting (robot time ~1f s). Only \c
             wait/1 and devices let that time pass; sleep/1 does not.',
            [Sleep, Seconds]).
-reason(limit(inferences(Most)), _, _, _, Seconds, Reason) :-
+ended(limit(inferences(Most)), _, Seconds, Reason) :-
     Millions is Most // 1000000,
     format(atom(Reason),
            'Stopped: it computes without end, or for too long: more than ~d \c
             million steps of Prolog (robot time ~1f s).',
            [Millions, Seconds]).
-reason(lost, _Output, _, _, _,
+ended(lost, _, _,
        'It was not marked, because the machine was too busy: mark it again.').
-reason(limit(output), _, _, _, Seconds, Reason) :-
+ended(limit(output), _, Seconds, Reason) :-
     format(atom(Reason), 'Stopped after 1 MB of output (robot time ~1f s).',
            [Seconds]).
-reason(limit(memory), _, _, _, Seconds, Reason) :-
+ended(limit(memory), _, Seconds, Reason) :-
     format(atom(Reason),
            'Stopped: it used too much memory (robot time ~1f s).',
            [Seconds]).
-reason(limit(processes), _, _, _, Seconds, Reason) :-
+ended(limit(processes), _, Seconds, Reason) :-
     format(atom(Reason),
            'Stopped: it started too many processes (robot time ~1f s).',
            [Seconds]).
-reason(refused(Why), _, _, _, Seconds, Reason) :-
+ended(refused(Why), _, Seconds, Reason) :-
     format(atom(Reason),
            'Stopped at ~1f s: no program may ask the robot that: ~w.',
            [Seconds, Why]).
@@ -84,24 +129,28 @@ load_error(Output, File, Reason) :-
     !,
     format(atom(Reason), '~w: ~w.', [Where, Fault]).
 
-%   What is wrong, the worst first: what ended the program, errors in its
-%   file, other errors, warnings.
+%   Kind-Text for each message, the worst first: what ended the program, what
+%   was found out, errors in its file, other errors, warnings.
 
-ranked(Output, File, Texts) :-
+said(Output, File, Said) :-
     messages(Output, File, Messages),
-    findall(Rank-Text,
+    findall(Rank-(Kind-Text),
             ( member(message(Mark, Where, Text0), Messages),
-              rank(Mark, Where, Text0, Rank),
+              rank(Mark, Where, Text0, Rank, Kind),
               worded(Where, Text0, Text) ),
             Ranked0),
     keysort(Ranked0, Ranked),
-    findall(Text, member(_-Text, Ranked), Texts0),
-    list_to_set(Texts0, Texts).
+    findall(Each, member(_-Each, Ranked), Said0),
+    list_to_set(Said0, Said).
 
-rank(_, _, Text, 1) :-
+rank("ev3dev-end\t", _, _, 1, end) :-
+    !.
+rank("ev3dev-why\t", _, _, 2, why) :-
+    !.
+rank(_, _, Text, 1, end) :-
     string_concat("-g ", _, Text),
     !.
-rank(_, _, Text, _) :-
+rank(_, _, Text, _, _) :-
     (   atom_length(Text, 0)
     ;   member(Begin, [ "Prolog initialisation failed:", % 7.2.3's
                         "Goal (directive) failed",       % the error is said
@@ -111,26 +160,17 @@ rank(_, _, Text, _) :-
     ),
     !,
     fail.
-rank("ERROR: ", Where, _, Rank) :-
+rank("ERROR: ", Where, _, Rank, hint) :-
     !,
-    ( Where == '' -> Rank = 3 ; Rank = 2 ).
-rank(_, _, _, 4).
+    ( Where == '' -> Rank = 4 ; Rank = 3 ).
+rank(_, _, _, 5, hint).
 
 worded(Where, Text0, Text) :-
     without_call(Text0, Text1),
     without_stack(Text1, Text2),
     (   Where == ''
-    ->  Text = Text2
+    ->  atom_string(Text, Text2)
     ;   format(atom(Text), '~w: ~w', [Where, Text2])
-    ).
-
-%   At most two.
-
-also([], '').
-also([First|Rest], Also) :-
-    (   Rest = [Second|_]
-    ->  format(atom(Also), '. Also: ~w; ~w', [First, Second])
-    ;   format(atom(Also), '. Also: ~w', [First])
     ).
 
 %   -g start: catch/3: What was wrong
@@ -178,7 +218,11 @@ found([], _, []).
 found([Line|Lines], File, Messages) :-
     (   marked(Line, Mark, Text0)
     ->  continued(Lines, Text0, Text1, Rest),
-        placed(Text1, File, Where, Text),
+        (   sub_string(Mark, 0, _, _, "ev3dev-")
+        ->  Where = '',
+            without_path(Text1, File, Text)
+        ;   placed(Text1, File, Where, Text)
+        ),
         Messages = [message(Mark, Where, Text)|Messages1],
         found(Rest, File, Messages1)
     ;   found(Lines, File, Messages)
@@ -186,7 +230,7 @@ found([Line|Lines], File, Messages) :-
 
 %   Prolog 10 says which thread it is.
 marked(Line, Mark, Text) :-
-    member(Mark, ["ERROR: ", "Warning: "]),
+    member(Mark, [ "ERROR: ", "Warning: ", "ev3dev-end\t", "ev3dev-why\t" ]),
     string_concat(Mark, Text0, Line),
     !,
     (   string_concat("[Thread main] ", Text1, Text0)
@@ -234,15 +278,17 @@ numbers(Text, Numbers, Rest) :-
     ).
 
 where([], '').
-where([Line], Where) :-
-    format(atom(Where), 'Line ~d', [Line]).
-where([Line, Column|_], Where) :-
-    format(atom(Where), 'Line ~d, column ~d', [Line, Column]).
+where([Line|More], Where) :-
+    (   More = [Column|_]
+    ->  format(atom(Where), 'Line ~d, column ~d', [Line, Column])
+    ;   format(atom(Where), 'Line ~d', [Line])
+    ).
 
-%   Nobody needs to know where the marker has put the file.
+%   Nobody needs to know where the marker has put the files.
 
 without_path(Text0, File, Text) :-
-    file_base_name(File, Name),
+    file_directory_name(File, Folder0),
+    atom_concat(Folder0, /, Folder),
     atom_string(Text1, Text0),
-    atomic_list_concat(Parts, File, Text1),
-    atomic_list_concat(Parts, Name, Text).
+    atomic_list_concat(Parts, Folder, Text1),
+    atomic_list_concat(Parts, Text).

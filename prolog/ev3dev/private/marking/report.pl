@@ -173,7 +173,7 @@ write_page(File, Exercise, Shown, Marked) :-
     format(atom(Title), '~w: ~w', [Title0, Name]),
     to_file(File, page(Title, one_page(Exercise, Shown, Marked))).
 
-one_page(Exercise, Shown, marked(_, Mark, Results, _)) :-
+one_page(Exercise, Shown, marked(_, Mark, Results, _, _)) :-
     Mark = mark(_, Points, Of, Scores, Runs, Reason),
     format("<p><strong>~w of ~w points</strong></p>~n", [Points, Of]),
     (   Reason == ''
@@ -258,7 +258,8 @@ class_body(Scores, Class, Pages, Marked) :-
     similar(Class, Marked),
     sorting.
 
-class_row(marked(Name, mark(_, P, Of, _, Runs, Reason), Results, _), Pages) :-
+class_row(marked(Name, mark(_, P, Of, _, Runs, Reason), Results, _, _),
+          Pages) :-
     memberchk(Name-Page, Pages),
     uri_encoded(path, Page, Link),
     Percent is round(100*P/Of),

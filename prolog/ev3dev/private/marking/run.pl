@@ -1,14 +1,13 @@
 :- module(ev3dev_marking_run,
           [ marking_place/0,
             marking_exercise/2,         % +File, +Text
-            marked_run/4,               % +Files, +Seed, +Enclosed, -Result
-            fenced_run/6                % +Marking, +Files, +Goal, +Seed,
-                                        % +Enclosed, -Ended
+            marked_run/4                % +Files, +Which, +Enclosed, -Result
           ]).
 :- use_module(read,
               [ exercise_happens/2, exercise_setting/3, exercise_world/3,
                 read_exercise/2, score_shares/2, wrong_rule/2 ]).
-:- use_module(reasons, [reason/6]).
+:- use_module(explained, [lacks/3, watching/3]).
+:- use_module(reasons, [reason_text/2, reasons/6]).
 :- use_module(record,
               [record_end/3, recorded/4, run_fact/1, with_record/4]).
 :- use_module(why, [collision_reason/1]).
@@ -18,13 +17,16 @@
 :- use_module('../../sim_fenced', [sim_fenced/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/2, member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
 /** <module> One run of one program, in a process of the marker
 */
 
-:- meta_predicate or_lost(0).
+:- meta_predicate or_lost(0), silently(0).
+
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
 
 :- dynamic exercise/2.                  % Exercise, its text
 
@@ -51,13 +53,23 @@ marking_exercise(File, Text) :-
         atom_concat(Base, '.pl', Path),
         write_text(Path, utf8, Text)
     ),
-    read_exercise(Path, Exercise),
+    silently(read_exercise(Path, Exercise)),
     retractall(exercise(_, _)),
     assertz(exercise(Exercise, Text)).
 
-%!  marked_run(+Files, +Seed, +Enclosed, -Result) is det.
+%   The marker has printed its warnings.
+
+silently(Goal) :-
+    setup_call_cleanup(
+        asserta((user:message_hook(_, warning, _) :- true), Hook),
+        once(Goal),
+        erase(Hook)).
+
+%!  marked_run(+Files, +Which, +Enclosed, -Result) is det.
 %
-%   Run a program. Files are Path-Text, of which the first begins. Result is
+%   Run a program. Files are Path-Text, of which the first begins. Which is a
+%   seed, or watched(Seed): then the reason for what the run lacks is looked
+%   for, too, and is a list of lines. Result is
 %   result(Ended, Seconds, Shares, Reason, Collision, Film, Ways, Collisions):
 %   the share of each score, a text of what went wrong or '', and one of how
 %   it ran into something, or ''; Film and Ways are as of recorded/4. Whatever
@@ -66,8 +78,8 @@ marking_exercise(File, Text) :-
 %
 %   @error what is wrong with the exercise
 
-marked_run(Files, Seed, Enclosed, Result) :-
-    catch(run_of(Files, Seed, Enclosed, Result), lost_run(Error),
+marked_run(Files, Which, Enclosed, Result) :-
+    catch(run_of(Files, Which, Enclosed, Result), lost_run(Error),
           ( message_text(Error, Why0),
             atom_concat('This run was lost: ', Why0, Why),
             Result = result(lost, 0, none, Why, '', [], [], []) )).
@@ -79,41 +91,78 @@ or_lost(Goal) :-
           ;   throw(lost_run(error(Formal, Context)))
           )).
 
-run_of([Name-Text|Others], Seed, Enclosed, Result) :-
+run_of(Files, Which, Enclosed, Result) :-
     exercise(Exercise, Salt),
-    exercise_setting(Exercise, goal(Goal), start),
-    fenced_run(Exercise-Salt, [Name-Text|Others], Goal, Seed, Enclosed,
+    exercise_setting(Exercise, goal(Goal0), start),
+    exercise_setting(Exercise, seconds(Seconds), 60),
+    (   Which = watched(Seed)
+    ->  watching(Seconds, Goal0, Goal)
+    ;   Seed = Which,
+        Goal = Goal0
+    ),
+    fenced_run(Exercise-Salt, Files, Goal, Seed, Enclosed,
                ended(Ended, Output, File)),
     exercise_setting(Exercise, cpu(Cpu), 10),
     exercise_setting(Exercise, sleep(Sleep), 30),
     recorded(Film, Ways, Collisions, Took),
-    reason(Ended, Output, File, limits(Cpu, Sleep), Took, Reason),
-    (   Took =:= 0
-    ->  Shares = none,
-        ( Reason == '' -> Reason1 = 'It did not use the robot.'
-        ; Reason1 = Reason )
-    ;   memberchk(Ended, [over, exit(_)])
-    ->  score_shares(Exercise, Shares),
-        (   Reason == '',
-            run_fact(commands(0)),
-            member(Share, Shares),
-            Share < 1
-        ->  Reason1 = 'It started no motor.'
-        ;   Reason1 = Reason
-        )
-    ;   Shares = none,
-        Reason1 = Reason
+    reasons(Ended, Output, File, limits(Cpu, Sleep), Took, Reasons),
+    (   Took > 0,
+        memberchk(Ended, [over, exit(_)])
+    ->  score_shares(Exercise, Shares)
+    ;   Shares = none
+    ),
+    use_of_robot(Took, Shares, Use),
+    (   Which = watched(_)
+    ->  found_out(Reasons, Use, Exercise, Files, Shares, Reason)
+    ;   Reasons = reasons([End|_], _, Hints)
+    ->  reason_text([End|Hints], Reason)
+    ;   reason_text(Use, Reason)
     ),
     (   collision_reason(Collision)
     ->  true
     ;   Collision = ''
     ),
-    Result = result(Ended, Took, Shares, Reason1, Collision, Film, Ways,
+    Result = result(Ended, Took, Shares, Reason, Collision, Film, Ways,
                     Collisions).
 
-%!  fenced_run(+Marking, +Files, +Goal, +Seed, +Enclosed, -Ended) is det.
-%
-%   Run the program Files, which begins with Goal, and record it. Marking is
+use_of_robot(Took, Shares, Use) :-
+    (   Took =:= 0
+    ->  Use = ['It did not use the robot.']
+    ;   is_list(Shares),
+        run_fact(commands(0)),
+        member(Share, Shares),
+        Share < 1
+    ->  Use = ['It started no motor.']
+    ;   Use = []
+    ).
+
+%   What a run lacks that ended as it should, and in which nothing is wrong.
+
+found_out(reasons(Ends, Whys0, Hints), Use, Exercise, Files, Shares,
+          Lines) :-
+    exercise_setting(Exercise, seconds(Seconds), 60),
+    findall(Why, ( member(Why0, Whys0), under_way(Why0, Seconds, Why) ),
+            Whys),
+    (   Ends-Whys == []-[]
+    ->  (   is_list(Shares),
+            Use == []
+        ->  lacks(Exercise, Files, Lacks)
+        ;   Lacks = Use
+        )
+    ;   Lacks = []
+    ),
+    append([Ends, Whys, Hints, Lacks], Lines).
+
+under_way(Why0, Seconds, Why) :-
+    (   sub_atom(Why0, _, _, _, 'calls itself without end: '),
+        \+ sub_atom(Why0, _, _, _, 'the stack')
+    ->  format(atom(Why), 'It was still under way after ~w s: ~w',
+               [Seconds, Why0])
+    ;   Why = Why0
+    ).
+
+%   fenced_run(+Marking, +Files, +Goal, +Seed, +Enclosed, -Ended):
+%   run the program Files, which begins with Goal, and record it. Marking is
 %   Exercise-Salt; Ended is ended(How, Output, File).
 
 fenced_run(Exercise-Salt, [Name-Text|Others], Goal, Seed, Enclosed,
