@@ -16,6 +16,7 @@
 :- use_module(library(ev3dev/private/help/help_index), []).
 :- use_module(library(ev3dev/private/help/help_words), [words_for/2]).
 :- use_module(library(ev3dev/private/help/libraries), [in_library/2]).
+:- use_module(library(ev3dev/private/marking/read), [exercise_fact/2]).
 :- use_module('../support/child').
 :- use_module('../support/libraries').
 
@@ -70,6 +71,10 @@ test(shows_only_that_of_a_library) :-
     help_text('ev3dev/drive':go_cm, Text),
     shows(Text, go_cm/3),
     \+ shows(Text, go_cm/2).
+test(knows_the_facts_of_an_exercise,
+     [ forall(exercise_fact(Name, Arity)) ]) :-
+    help_text(Name/Arity, Text),
+    sub_string(Text, 0, _, _, "library(ev3dev/exercise), in a file of your own\n").
 test(has_no_answer_for_others, fail) :-
     help_text(no_such_thing, _).
 test(has_no_answer_for_no_name, fail) :-

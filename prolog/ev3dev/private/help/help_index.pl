@@ -85,14 +85,17 @@ answer_first.
 %   comment_(Id, Library, Heads, Body): Library is `ev3dev`, `ev3dev/drive`
 %   or the like. Heads and Body are lists of strings: lines.
 %   predicate_(Name, Arity, Id)
+%   fact_(Id): a library asks for it, and the user's file defines it
 %   words_(Id, Names, LibraryWords, SummaryWords): what apropos/1 looks at
 :- dynamic
     comment_/4,
     predicate_/3,
+    fact_/1,
     words_/4.
 :- volatile
     comment_/4,
     predicate_/3,
+    fact_/1,
     words_/4.
 
 % ---------------- QUESTIONS
@@ -324,7 +327,9 @@ print_comments([_-Id|Pairs], Before) :-
     print_comments(Pairs, Library).
 
 print_library(Library, Id) :-
-    (   is_imported(Library, Id)
+    (   fact_(Id)
+    ->  How = ', in a file of your own'
+    ;   is_imported(Library, Id)
     ->  How = ''
     ;   atomic_list_concat([', which is not loaded: use_module(library(',
                             Library, ')).'], How)
@@ -448,7 +453,11 @@ read_file(Folder, File, Exports) :-
         close(In)),
     split_string(Text, "\n", "", Lines),
     forall(comment(Lines, Heads, Body),
-           add_comment(Offer, Heads, Body)).
+           add_comment(Offer, Heads, Body)),
+    (   Folder == ''
+    ->  forall(fact(Lines, Head, Body), add_fact(File, Head, Body))
+    ;   true
+    ).
 
 %   Files of worlds and robots are no modules.
 
@@ -469,6 +478,37 @@ comment(Lines, Heads, Body) :-
     sub_string(Line, 0, 2, _, "%!"),
     heads([Line|Lines1], Heads, Lines2),
     body(Lines2, Body).
+
+%   fact(+Lines, -Head, -Body)
+%
+%   True if a section about facts has an item for Head in Lines.
+
+fact(Lines, Head, Body) :-
+    append(_, [Heading|Lines1], Lines),
+    string_concat("## ", _, Heading),
+    sub_string(Heading, _, _, 0, "-facts}"),
+    section(Lines1, Section),
+    append(_, [Item|Lines2], Section),
+    string_concat("  - ", Head, Item),
+    item(Lines2, Body).
+
+section([Line|Lines], Section) :-
+    (   \+ sub_string(Line, 0, _, _, "## "),
+        Line \== "*/"
+    ->  Section = [Line|Section1],
+        section(Lines, Section1)
+    ;   Section = []
+    ).
+
+item([Line|Lines], Body) :-
+    (   Line == ""
+    ->  Body = [""|Body1]
+    ;   string_concat("    ", Text, Line)
+    ->  Body = [Text|Body1]
+    ),
+    !,
+    item(Lines, Body1).
+item(_, []).
 
 heads([Line|Lines], [Text|Heads], Rest) :-
     string_concat("%", Text, Line),
@@ -531,6 +571,18 @@ add_comment(Offer, Heads, Body0) :-
         add_words(Id, Library, Body)
     ;   true
     ).
+
+add_fact(File, Head, Body0) :-
+    file_base_name(File, Base),
+    file_name_extension(Stem, _, Base),
+    atom_concat('ev3dev/', Stem, Library),
+    head_indicator(Head, PI),
+    without_ends(Body0, Body),
+    flag(ev3dev_help_index, Id, Id + 1),
+    assertz(comment_(Id, Library, [Head], Body)),
+    assertz(fact_(Id)),
+    add_predicate(PI, Id),
+    add_words(Id, Library, Body).
 
 %   A comment may have several heads for one predicate.
 
