@@ -128,7 +128,7 @@ export function patient(page) {
 
 /** What a browser says of a connection that a busy machine has lost: the page makes another one,
     without which the tests fail. */
-const LOST = /establish a connection to the server at ws:|connection to ws:.* was interrupted/;
+const LOST = /establish a connection to the server at ws:|connection to ws:.* was interrupted|closed before the connection is established/;
 
 /** A page at an address; keeps what its console said and what it asked for. What the program
     says comes `late`, by so many ms. */
