@@ -145,8 +145,10 @@ throw_located(Formal, Location, Why) :-
     prolog:message//1,
     prolog:message_location//1.
 
-prolog:message(error(Formal, fact(Location, Why))) -->
+prolog:message(error(Formal, Context)) -->
     { nonvar(Formal),
+      nonvar(Context),
+      Context = fact(Location, Why),
       (   Formal = domain_error(Domain, Fact),
           memberchk(Domain, [possible_geometry, world_fact, robot_fact])
       ->  item_said(Fact, Why, Said)
