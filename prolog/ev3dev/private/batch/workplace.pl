@@ -29,8 +29,8 @@ the system's rm removes it, which follows no links.
 new_workplace(Base, Directory) :-
     forall(left_behind(Base, Left), removed(Left)),
     new_directory(Base, Directory),
-    run([chmod, '700', file(Directory)]),   % chmod/2 is not in 7.2.3
     assertz(place(Directory)),
+    run([chmod, '700', file(Directory)]),   % chmod/2 is not in 7.2.3
     current_prolog_flag(pid, Pid),
     directory_file_path(Directory, owner, File),
     (   process_name(Pid, Name)
@@ -42,10 +42,12 @@ owned(Name, Out) :-
     format(Out, '~q.~n', [Name]).
 
 %!  end_workplace(+Directory) is det.
+%
+%   Remove it. If that is interrupted, it is removed when Prolog halts.
 
 end_workplace(Directory) :-
-    retractall(place(Directory)),
-    removed(Directory).
+    removed(Directory),
+    retractall(place(Directory)).
 
 end_all :-
     forall(retract(place(Directory)), removed(Directory)).
