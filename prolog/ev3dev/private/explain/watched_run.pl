@@ -13,7 +13,7 @@
 
 /** <module> A run of a program that is to be explained
 
-`swipl ev3dev try` makes one more run of a program that has not earned all
+`try` and `mark` make one more run of a program that has not earned all
 points. In its process, this module prints what it finds out, each in a line
 that begins with `ev3dev-why` and a tab, and what ended the program in one
 that begins with `ev3dev-end`.
