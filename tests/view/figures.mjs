@@ -39,13 +39,15 @@ for (let i = 0; i < TIMES; i += 1) {
 row('from a motor\'s start to its being seen', starts);
 row('from STOP to its effect being seen', stops);
 
-/** Frames of a second, and what each costs the browser: on a busy machine there are fewer, at the same cost. */
+/** Frames and pictures of a second, and what each frame costs the browser: on a busy machine there
+    are fewer, at the same cost. */
 async function drawn(what, of) {
   const [begin, from, began] = [await state(of), spent([browser.process().pid]), performance.now()];
   await new Promise((resolve) => { setTimeout(resolve, 5000); });
   const [end, to, ended] = [await state(of), spent([browser.process().pid]), performance.now()];
-  const frames = end.frames - begin.frames;
-  console.log(`${what}: ${((1000 * frames) / (ended - began)).toFixed(1)} frames a second, each ${((1000 * (to - from)) / frames).toFixed(1)} ms of processors`);
+  const [frames, pictures] = [end.frames - begin.frames, end.drawings - begin.drawings];
+  const rate = (count) => ((1000 * count) / (ended - began)).toFixed(1);
+  console.log(`${what}: ${rate(frames)} frames and ${rate(pictures)} pictures a second, each frame ${((1000 * (to - from)) / frames).toFixed(1)} ms of processors`);
 }
 
 /** Prolog and the browser together, while nothing changes. */
@@ -81,7 +83,8 @@ for (const [words, span] of [['20 s', 1], ['all', 3]]) {
   console.log(`six charts of ${words}, ${(await state(page)).samples} samples: script of a frame, median ${median(spent).toFixed(1)} ms, worst ${worst(spent).toFixed(1)} ms`);
 }
 await page.close();
-await session.end();
+session.prolog.kill();          // its program does not end
+await session.ended;
 
 const many = await Session.start('findall(box(X, Y, 2, 2), ( between(1, 100, I), X is 10*I, between(1, 100, J), Y is 10*J ), Boxes), sim_start([bounds(0, 0, 1100, 1100), start(1055, 55, 0)|Boxes])', 'set_robot(5.6, 10.6, outB, outC)');
 const crowded = await open(browser, await many.view());
