@@ -97,7 +97,7 @@ note(Kind, Text, About) :-
     ;   Ended = false
     ),
     with_mutex(ev3dev_view_log,
-               ( log_commands(Ended),
+               ( log_new(Ended),
                  view_log_(now, Kind, Text, [], About, Thread) )).
 
 thread_name(page) :-
